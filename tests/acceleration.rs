@@ -79,7 +79,8 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
                      cam -ep 0 -{distance} 0 -vc 0 0 0 -va 10;"
                 );
                 let source = ugparse::Source::new("sun.ug", text);
-                let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+                let mut scene =
+                    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
                 // The camera sees the event at the origin: it has moved on by then.
                 let v = ugphysics::Velocity::from_beta(camera).unwrap();
                 let gamma = v.gamma();
@@ -181,7 +182,8 @@ fn a_flight_of_many_years_shows_aberration_and_doppler() {
             if (doppler - 1.0).abs() > 0.5 || years > 30.0 {
                 continue;
             }
-            let shifted = ugdoppler::Config { shift: ColorShift::SPECTRA, keep: true, ..Default::default() };
+            let shifted =
+                ugdoppler::Config { shift: ColorShift::SPECTRA, keep: true, ..Default::default() };
             let colored = scenes::parse(&pipe::doppler(&lorentz, &shifted));
             let xyz = |color: ugscene::ColorId| match colored.colors[color.index()].value {
                 ColorValue::Xyz(xyz) => DVec3::from_array(xyz),
@@ -202,17 +204,26 @@ fn a_flight_of_many_years_shows_aberration_and_doppler() {
 /// drawn while that is precise, and refused from then on.
 #[test]
 fn a_cockpit_is_seen_at_rest_or_refused() {
-    let cockpit = "motion ship -acc 0 1 0; v a -.5 1 -.5; v b .5 1 -.5; v c 0 1 .5; f (a b c) <ship>;
+    let cockpit =
+        "motion ship -acc 0 1 0; v a -.5 1 -.5; v b .5 1 -.5; v c 0 1 .5; f (a b c) <ship>;
                    cam -ep 0 0 0 -vc 0 1 0 <ship>;";
     let mut last = Vec::new();
     for years in [0.0, 5.0, 10.0, 12.0, 13.0, 14.0, 16.0, 19.0] {
         let mut scene = scenes::parse(cockpit.as_bytes());
-        let config =
-            uglorentz::Config { time: years, pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+        let config = uglorentz::Config {
+            time: years,
+            pieces: uglorentz::Pieces::PerEdge(1),
+            ..Default::default()
+        };
         match uglorentz::apply(std::mem::take(&mut scene), &config) {
-            Ok((scene, _)) => last.push(scene.vertices.iter().map(|v| v.position).collect::<Vec<_>>()),
+            Ok((scene, _)) => {
+                last.push(scene.vertices.iter().map(|v| v.position).collect::<Vec<_>>())
+            }
             Err(error) => {
-                assert!(years > 12.0 && error.to_string().contains("rounding moves it"), "{years}: {error}");
+                assert!(
+                    years > 12.0 && error.to_string().contains("rounding moves it"),
+                    "{years}: {error}"
+                );
                 continue;
             }
         }

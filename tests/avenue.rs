@@ -6,7 +6,8 @@ use ugphysics::spectrum::Spectrum;
 
 /// CIE L*a*b*, relative to a white.
 fn lab(xyz: [f64; 3], white: [f64; 3]) -> [f64; 3] {
-    let root = |t: f64| if t > 216.0 / 24389.0 { libm::cbrt(t) } else { t * 841.0 / 108.0 + 4.0 / 29.0 };
+    let root =
+        |t: f64| if t > 216.0 / 24389.0 { libm::cbrt(t) } else { t * 841.0 / 108.0 + 4.0 / 29.0 };
     let [x, y, z] = [0, 1, 2].map(|at| root(xyz[at] / white[at]));
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
@@ -31,9 +32,11 @@ fn measured_spectra_change_surfaces_as_the_table_says() {
         for speed in [0.5, 0.9] {
             let ahead = Velocity::from_beta(glam::DVec3::X * speed).unwrap();
             let doppler = ahead.gamma() * (1.0 + speed);
-            let [seen, other, white] = [measured, &guessed, &white].map(|part| part.shifted(doppler));
+            let [seen, other, white] =
+                [measured, &guessed, &white].map(|part| part.shifted(doppler));
             let [one, two] = [lab(seen, white), lab(other, white)];
-            let difference = (0..3).map(|at| (one[at] - two[at]) * (one[at] - two[at])).sum::<f64>().sqrt();
+            let difference =
+                (0..3).map(|at| (one[at] - two[at]) * (one[at] - two[at])).sum::<f64>().sqrt();
             expected += &format!(",{:.2},{difference:.0}", seen[1] / other[1]);
         }
         assert!(table.lines().any(|line| line == expected), "not in avenue.csv: {expected}");

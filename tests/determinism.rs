@@ -103,7 +103,8 @@ fn a_shell_pipe_gives_the_same_bytes_in_both_profiles() {
     // With a history, to which programs do not add what libraries do not know: the name of a file.
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("cubes.ug");
-    std::fs::write(&scene, [b"{ ugmesh 1: ugmesh }\n", &scenes::text("cubes")[..]].concat()).unwrap();
+    std::fs::write(&scene, [b"{ ugmesh 1: ugmesh }\n", &scenes::text("cubes")[..]].concat())
+        .unwrap();
     tools::has_other_build(tools::PROFILES);
     let programs = programs::folder();
     let there = through_a_shell(programs, &scene);

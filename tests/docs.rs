@@ -39,8 +39,9 @@ fn commands_in_documents_work() {
             } else {
                 with_options(&small, "-aa 1")
             };
-            let messages =
-                page.run(&small, folder.path(), programs).unwrap_or_else(|message| panic!("{message}"));
+            let messages = page
+                .run(&small, folder.path(), programs)
+                .unwrap_or_else(|message| panic!("{message}"));
             // Frames of a film may be empty, before a body comes; lines may be black.
             let is_drawn = command.starts_with("for ")
                 || command.starts_with("ugfilm ")
@@ -48,8 +49,10 @@ fn commands_in_documents_work() {
                 || !messages.contains("nothing is drawn") && !messages.contains("is black");
             assert!(is_drawn, "{path}: {command}: {messages}");
             // What is only printed writes no file.
-            for file in written_files(command).into_iter().filter(|_| !command.contains("--print")) {
-                let size = std::fs::metadata(folder.path().join(&file)).map_or(0, |made| made.len());
+            for file in written_files(command).into_iter().filter(|_| !command.contains("--print"))
+            {
+                let size =
+                    std::fs::metadata(folder.path().join(&file)).map_or(0, |made| made.len());
                 assert!(size > 300, "{path}: {command}: {} has {size} bytes", file.display());
             }
         }
@@ -72,7 +75,11 @@ fn programs_answer_as_the_pages_say() {
             let typed_command = command.replace("--explain", "-ex 0 --explain");
             // Drawing may take more than a second, and then shows its progress on a terminal.
             let has_terminal = page == "docs/mistakes.md" && !command.contains("-sz ");
-            assert_eq!(typed(&typed_command, folder.path(), programs, has_terminal), answer, "$ {command}");
+            assert_eq!(
+                typed(&typed_command, folder.path(), programs, has_terminal),
+                answer,
+                "$ {command}"
+            );
         }
     }
 }
@@ -80,16 +87,22 @@ fn programs_answer_as_the_pages_say() {
 /// The output of a command, on a terminal or not, without white space at the ends of lines.
 fn typed(command: &str, folder: &Path, programs: &Path, has_terminal: bool) -> String {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths(std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)));
+    let path = std::env::join_paths(
+        std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)),
+    );
     let mut shell = if has_terminal { Command::new("script") } else { Command::new("bash") };
     if has_terminal {
         shell.args(["-qec", command, "/dev/null"]);
     } else {
         shell.args(["-c", &format!("{{ {command}; }} 2>&1")]);
     }
-    shell.current_dir(folder).env("PATH", path.expect("a path without colons")).env("NO_COLOR", "1");
+    shell
+        .current_dir(folder)
+        .env("PATH", path.expect("a path without colons"))
+        .env("NO_COLOR", "1");
     let output = shell.stdin(Stdio::null()).output().expect("the shell runs");
     // `script` types the end of its empty input, which the terminal echoes.
-    let text = String::from_utf8_lossy(&output.stdout).replace('\r', "").replace("^D\u{8}\u{8}", "");
+    let text =
+        String::from_utf8_lossy(&output.stdout).replace('\r', "").replace("^D\u{8}\u{8}", "");
     text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }

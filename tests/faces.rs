@@ -43,14 +43,18 @@ fn world(random: &mut Random, unit: f64, is_moving: bool) -> String {
             let mut contours = String::new();
             let shape = *random.pick(&SHAPES);
             let hole = if random.one_in(3) && shape.len() != 5 { &HOLE[..] } else { &[] };
-            for (contour, points) in [shape, hole].into_iter().filter(|points| !points.is_empty()).enumerate()
+            for (contour, points) in
+                [shape, hole].into_iter().filter(|points| !points.is_empty()).enumerate()
             {
                 let mut names = String::new();
                 for (at, &(x, y)) in points.iter().enumerate() {
                     let height = if at % 2 == 0 { bend } else { -bend };
                     let place = origin + across * x + up * y + across.cross(up) * height;
-                    let color =
-                        if random.one_in(3) { format!("k{}", random.below(6)) } else { String::new() };
+                    let color = if random.one_in(3) {
+                        format!("k{}", random.below(6))
+                    } else {
+                        String::new()
+                    };
                     let [x, y, z] = (place * unit).to_array();
                     writeln!(text, "v p{face}_{contour}_{at} {x} {y} {z} {color};").unwrap();
                     write!(names, "p{face}_{contour}_{at} ").unwrap();
@@ -64,7 +68,8 @@ fn world(random: &mut Random, unit: f64, is_moving: bool) -> String {
         let mirror = if random.one_in(2) { "-mx" } else { "" };
         let velocity = if is_moving { random.in_ball(0.6) } else { DVec3::ZERO };
         let ([x, y, z], [vx, vy, vz]) = (place.to_array(), velocity.to_array());
-        writeln!(text, "i b{body} (d{body} {mirror} -tx {x} -ty {y} -tz {z}) < {vx} {vy} {vz} >;").unwrap();
+        writeln!(text, "i b{body} (d{body} {mirror} -tx {x} -ty {y} -tz {z}) < {vx} {vy} {vz} >;")
+            .unwrap();
     }
     text
 }
@@ -75,7 +80,8 @@ fn lights(random: &mut Random, unit: f64, shift: ColorShift) -> String {
     let toward = random.direction();
     let depth = if random.one_in(3) { 3.7 } else { 0.0 };
     let [ex, ey, ez] = (DVec3::new(0.013, 0.027, depth) * unit).to_array();
-    let [first, second] = if matches!(shift, ColorShift::Spectra(_)) { ["k0", "k1"] } else { [""; 2] };
+    let [first, second] =
+        if matches!(shift, ColorShift::Spectra(_)) { ["k0", "k1"] } else { [""; 2] };
     format!(
         "l .3; l .5 {} {} {} {first}; l .4 .3 .5 -1 {second}; cam -ep {ex} {ey} {ez} -vc {ex} {ey} {} -ud 0 1 0 -va 60;",
         toward.x,
@@ -98,16 +104,29 @@ fn compare(rays: &Drawn, other: &Drawn, tolerance: f64) -> (usize, usize, f64) {
     let (light, other) = (rays.light(), other.light());
     let brightest = light.iter().flatten().fold(0.0_f64, |most, &part| most.max(part.into()));
     let (mut n, mut n_wrong, mut most) = (0, 0, 0.0_f64);
-    for (row, column) in (1..SIZE[1] as usize - 1).flat_map(|row| (1..width - 1).map(move |x| (row, x))) {
+    for (row, column) in
+        (1..SIZE[1] as usize - 1).flat_map(|row| (1..width - 1).map(move |x| (row, x)))
+    {
         let at = row * width + column;
-        let around = [at - width - 1, at - width, at - width + 1, at - 1, at + 1, at + width - 1, at + width];
-        let is_off_edge = around.iter().chain([&(at + width + 1)]).all(|&near| ids[near] == ids[at]);
+        let around = [
+            at - width - 1,
+            at - width,
+            at - width + 1,
+            at - 1,
+            at + 1,
+            at + width - 1,
+            at + width,
+        ];
+        let is_off_edge =
+            around.iter().chain([&(at + width + 1)]).all(|&near| ids[near] == ids[at]);
         if ids[at] == 0 || !is_off_edge {
             continue;
         }
         let pair = light[at].iter().zip(other[at]);
-        let difference = pair.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max) / brightest;
-        (n, n_wrong, most) = (n + 1, n_wrong + usize::from(difference > tolerance), most.max(difference));
+        let difference =
+            pair.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max) / brightest;
+        (n, n_wrong, most) =
+            (n + 1, n_wrong + usize::from(difference > tolerance), most.max(difference));
     }
     (n, n_wrong, most)
 }
@@ -131,7 +150,10 @@ fn pictures_are_those_of_rays() {
                 others.into_iter().enumerate().take(2 - usize::from(is_moving))
             {
                 let (n, n_wrong, most) = compare(&rays, &of(renderer), tolerance);
-                assert_eq!(n_wrong, 0, "world {seed}, {shift:?}: of {n} pixels, by {most:.1e}\n{text}");
+                assert_eq!(
+                    n_wrong, 0,
+                    "world {seed}, {shift:?}: of {n} pixels, by {most:.1e}\n{text}"
+                );
                 n_all[row] += n;
             }
         }

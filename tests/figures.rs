@@ -33,8 +33,11 @@ enum Tool {
 fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
     let folder = tempfile::tempdir().unwrap();
     let input = folder.path().join(format!("in.{}", format.name()));
-    let output =
-        folder.path().join(if matches!(tool, Tool::PopplerImages) { "out-000.png" } else { "out.png" });
+    let output = folder.path().join(if matches!(tool, Tool::PopplerImages) {
+        "out-000.png"
+    } else {
+        "out.png"
+    });
     std::fs::write(&input, file).unwrap();
     let mut run = command(tool, &input, &output).output().unwrap();
     for _ in 0..2 {
@@ -55,13 +58,24 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
     match tool {
         Tool::Ghostscript => {
             let mut gs = Command::new("gs");
-            gs.args(["-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dEPSCrop", "-r72", "-dGraphicsAlphaBits=4"]);
+            gs.args([
+                "-q",
+                "-dSAFER",
+                "-dBATCH",
+                "-dNOPAUSE",
+                "-dEPSCrop",
+                "-r72",
+                "-dGraphicsAlphaBits=4",
+            ]);
             gs.arg("-sDEVICE=png16m").arg("-o").arg(output).arg(input);
             gs
         }
         Tool::Poppler => {
             let mut poppler = Command::new("pdftoppm");
-            poppler.args(["-r", "72", "-png", "-singlefile"]).arg(input).arg(output.with_extension(""));
+            poppler
+                .args(["-r", "72", "-png", "-singlefile"])
+                .arg(input)
+                .arg(output.with_extension(""));
             poppler
         }
         Tool::PopplerImages => {
@@ -78,7 +92,12 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
             let mut chromium = Command::new("timeout");
             chromium.args(["60", "chromium"]);
             // Without a sandbox, so that it also runs as root; it opens only our file.
-            chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]);
+            chromium.args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+            ]);
             chromium.args(["--hide-scrollbars", "--force-device-scale-factor=0.75"]);
             // A point is 4/3 of a pixel of CSS.
             let [width, height] = SIZE.map(|side| side * 4 / 3);
@@ -111,8 +130,8 @@ fn fraction_different(png: &Picture, drawn: &Picture) -> f64 {
         (0..3).any(|channel| {
             let levels = near(y, height).flat_map(|y| near(x, width).map(move |x| (x, y)));
             let levels = levels.map(|(x, y)| png.get_pixel(x, y)[channel]);
-            let (low, high) =
-                levels.fold((255, 0), |(low, high): (u8, u8), level| (low.min(level), high.max(level)));
+            let (low, high) = levels
+                .fold((255, 0), |(low, high): (u8, u8), level| (low.min(level), high.max(level)));
             let level = drawn.get_pixel(x, y)[channel];
             level < low.saturating_sub(LEVELS) || level > high.saturating_add(LEVELS)
         })
@@ -160,7 +179,12 @@ fn embedded_pictures_are_the_png() {
         (Format::Svg, Tool::Chromium),
     ] {
         let file = draw(Output::Color(format));
-        assert_same(&format!("embedded-{}-{tool:?}", format.name()), &png, &drawn(tool, format, &file), 1);
+        assert_same(
+            &format!("embedded-{}-{tool:?}", format.name()),
+            &png,
+            &drawn(tool, format, &file),
+            1,
+        );
     }
 }
 
@@ -175,8 +199,9 @@ fn vector_figures_show_the_same_as_the_png() {
     // Text and lines have the same outlines as areas and as pixels.
     let mut annotated = white.clone();
     annotated.rainbow.picture.annotations = ugrainbow::AnnotationOptions {
-        caption: "A ship at β = 0.2, γ = 1.021: where it would be seen at rest, and the ground below it."
-            .into(),
+        caption:
+            "A ship at β = 0.2, γ = 1.021: where it would be seen at rest, and the ground below it."
+                .into(),
         legend: true,
         outline: true,
         grid: true,
@@ -192,8 +217,9 @@ fn vector_figures_show_the_same_as_the_png() {
     teapot.lorentz.smooth = true;
     let mut cued = cubes.clone();
     cued.rainbow.depth_cue = Some(ugrainbow::DepthCue { range: None, least: 0.2 });
-    let edges =
-        |has_faces| Some(ugrainbow::Wireframe { has_faces, color: None, ..ugrainbow::Wireframe::default() });
+    let edges = |has_faces| {
+        Some(ugrainbow::Wireframe { has_faces, color: None, ..ugrainbow::Wireframe::default() })
+    };
     let mut wires = sphere.clone();
     wires.rainbow.wireframe = edges(false);
     let mut edged = ship();
@@ -233,18 +259,28 @@ fn vector_figures_show_the_same_as_the_png() {
         let is_for_all = ["text", "teapot", "transparent"].contains(name);
         let is_tried = |format: Format, tool: Tool| {
             (!is_clear || format.has_alpha())
-                && (is_for_all || matches!((format, tool), (Format::Ps, _) | (_, Tool::Poppler | Tool::Rsvg)))
+                && (is_for_all
+                    || matches!((format, tool), (Format::Ps, _) | (_, Tool::Poppler | Tool::Rsvg)))
         };
         for (format, tools) in DRAWN_BY {
-            let tools: Vec<Tool> = tools.iter().copied().filter(|tool| is_tried(format, *tool)).collect();
+            let tools: Vec<Tool> =
+                tools.iter().copied().filter(|tool| is_tried(format, *tool)).collect();
             if tools.is_empty() {
                 continue;
             }
             let file = draw(Output::Vector(format));
             for tool in tools {
                 let part = fraction_different(&png, &on_paper(drawn(tool, format, &file)));
-                println!("{name} {} {tool:?}: {:.3} % of the pixels differ", format.name(), 100.0 * part);
-                assert!(part <= 0.02, "{name} {} {tool:?}: {part} of the pixels differ", format.name());
+                println!(
+                    "{name} {} {tool:?}: {:.3} % of the pixels differ",
+                    format.name(),
+                    100.0 * part
+                );
+                assert!(
+                    part <= 0.02,
+                    "{name} {} {tool:?}: {part} of the pixels differ",
+                    format.name()
+                );
             }
         }
     });
@@ -279,7 +315,10 @@ fn text_in_figures_can_be_searched() {
         String::from_utf8(run.stdout).unwrap()
     };
     let found = words(&draw(Format::Pdf, TextForm::Text));
-    assert!([CAPTION, "γ = 1.021", "700 nm", "x = −8"].iter().all(|text| found.contains(text)), "{found}");
+    assert!(
+        [CAPTION, "γ = 1.021", "700 nm", "x = −8"].iter().all(|text| found.contains(text)),
+        "{found}"
+    );
     assert_eq!(words(&draw(Format::Pdf, TextForm::Outlines)).trim(), "");
     let svg = String::from_utf8(draw(Format::Svg, TextForm::Text)).unwrap();
     let text = svg_text(&svg);
@@ -293,7 +332,11 @@ fn vector_figures_are_smaller_than_pictures_for_print() {
     let colored = pipe.run(&scenes::text("ship")).colored;
     // 6 x 4.5 inches on paper: in points, and in pixels at 600 dpi.
     let print = ugrainbow::Config {
-        picture: ugrainbow::PictureOptions { size: [3600, 2700], samples: 1, ..pipe.rainbow.picture.clone() },
+        picture: ugrainbow::PictureOptions {
+            size: [3600, 2700],
+            samples: 1,
+            ..pipe.rainbow.picture.clone()
+        },
         ..pipe.rainbow.clone()
     };
     let png = rainbow(&colored, &print).len();

@@ -46,7 +46,9 @@ fn every_frame_is_the_picture_of_its_pipe() {
         let ending = if film.contains("-vec") { "svg" } else { "png" };
         for n_threads in [1, 5] {
             let folder = format!("film{row}-{n_threads}");
-            shell.run(&format!("mkdir {folder}; ugfilm {film} -nt {n_threads} -fo {folder}/f_%02d.{ending}"));
+            shell.run(&format!(
+                "mkdir {folder}; ugfilm {film} -nt {n_threads} -fo {folder}/f_%02d.{ending}"
+            ));
         }
         shell.run(&format!(
             "mkdir pipe{row}; ugfilm {film} -fo pipe{row}/f_%02d.{ending} --print > frames.sh"
@@ -58,7 +60,10 @@ fn every_frame_is_the_picture_of_its_pipe() {
         let distinct: std::collections::BTreeSet<&Vec<u8>> = expected.values().collect();
         assert_eq!(distinct.len(), expected.len(), "{film}: frames differ");
         for n_threads in [1, 5] {
-            assert!(files(&shell, &format!("film{row}-{n_threads}")) == expected, "{film} -nt {n_threads}");
+            assert!(
+                files(&shell, &format!("film{row}-{n_threads}")) == expected,
+                "{film} -nt {n_threads}"
+            );
         }
         // The command of a single frame.
         let print = format!("ugfilm {film} -fo pipe{row}/f_%02d.{ending} --print");
@@ -69,8 +74,17 @@ fn every_frame_is_the_picture_of_its_pipe() {
 }
 
 /// Names of files and captions that shells, terminals and comments of scenes would take apart.
-const NAMES: [&str; 9] =
-    ["two words", "it's", "a\tb", "a\nb", "{a}", "$(touch made)", "\u{202e}gnp", "\u{1b}[2J\\", "./-vel"];
+const NAMES: [&str; 9] = [
+    "two words",
+    "it's",
+    "a\tb",
+    "a\nb",
+    "{a}",
+    "$(touch made)",
+    "\u{202e}gnp",
+    "\u{1b}[2J\\",
+    "./-vel",
+];
 
 /// The printed command draws the same bytes, and so does the one that a picture records.
 #[test]
@@ -93,13 +107,17 @@ fn commands_draw_the_same_whatever_names_are() {
         let film = |last: &[&str]| {
             let mut film = Command::new(programs::folder().join("ugfilm"));
             film.args([
-                "-frames", "2", "-ti", "0..1", "-vel", ".5", "0", "0", "-in", "-sz", "160", "120", "-cap",
-                &caption,
+                "-frames", "2", "-ti", "0..1", "-vel", ".5", "0", "0", "-in", "-sz", "160", "120",
+                "-cap", &caption,
             ])
             .args(last)
             .current_dir(shell.folder());
             let output = film.output().unwrap();
-            assert!(output.status.success(), "{name:?}: {}", String::from_utf8_lossy(&output.stderr));
+            assert!(
+                output.status.success(),
+                "{name:?}: {}",
+                String::from_utf8_lossy(&output.stderr)
+            );
             String::from_utf8(output.stdout).unwrap()
         };
         film(&["-fo", "drawn_%d.png", "-fi", name]);
@@ -174,13 +192,16 @@ fn films_in_one_file_have_the_pixels_of_their_frames() {
     shell.run(&format!(
         "{film} -fo film.ppm; {film} -fo film.apng -fps 12.5; {film} -fo film.gif -keep k_%02d.png"
     ));
-    shell.run(&format!("{film} -fo film.y4m; {film} -fo f_%02d.png; {film} -fo again.ppm -keep f_%02d.png"));
+    shell.run(&format!(
+        "{film} -fo film.y4m; {film} -fo f_%02d.png; {film} -fo again.ppm -keep f_%02d.png"
+    ));
     let pixels = |row: usize| shell.pixels(&format!("f_{row:02}.png"));
     let files = files(&shell, ".");
     assert!(files["film.ppm"] == files["again.ppm"]);
     for row in 1..=5 {
         assert!(files[&format!("k_{row:02}.png")] == files[&format!("f_{row:02}.png")]);
-        let rgb: Vec<u8> = pixels(row).iter().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        let rgb: Vec<u8> =
+            pixels(row).iter().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         let head = b"P6\n81 60\n255\n";
         let frame = &files["film.ppm"][(row - 1) * (head.len() + rgb.len())..];
         assert!(frame.starts_with(head) && frame[head.len()..].starts_with(&rgb), "frame {row}");
@@ -205,7 +226,11 @@ fn pages_have_the_pictures_and_their_commands() {
     let film = "ugfilm -frames 4 -vel 0 0..0.8 0 -in -cap '<\"{beta}\" & more' -sz 81 60 dice.ug";
     shell.run(&format!("{film} -fo lesson.html -fps 4; {film} -fo f_%02d.png"));
     let page = String::from_utf8(shell.read("lesson.html")).unwrap();
-    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n") && page.contains(", 250);"));
+    assert!(
+        page.starts_with("<!DOCTYPE html>")
+            && page.ends_with("</html>\n")
+            && page.contains(", 250);")
+    );
     let attribute = |picture: &str, name: &str| {
         let value = picture.split_once(&format!("{name}=\"")).unwrap().1.split_once('"').unwrap().0;
         value.replace("&quot;", "\"").replace("&lt;", "<").replace("&amp;", "&")
@@ -214,10 +239,14 @@ fn pages_have_the_pictures_and_their_commands() {
     assert_eq!(pictures.len(), 4);
     for (row, picture) in (1..).zip(pictures) {
         let source = attribute(picture, "src");
-        let png =
-            base64::engine::general_purpose::STANDARD.decode(source.split_once(',').unwrap().1).unwrap();
+        let png = base64::engine::general_purpose::STANDARD
+            .decode(source.split_once(',').unwrap().1)
+            .unwrap();
         shell.write("shown.png", png);
-        assert!(shell.pixels("shown.png") == shell.pixels(&format!("f_{row:02}.png")), "picture {row}");
+        assert!(
+            shell.pixels("shown.png") == shell.pixels(&format!("f_{row:02}.png")),
+            "picture {row}"
+        );
         let line = attribute(picture, "title");
         let drawn = format!("frame_{row:04}.png");
         shell.run(&line);
@@ -236,7 +265,8 @@ fn pages_have_the_pictures_and_their_commands() {
 #[test]
 fn pages_have_a_second_slider() {
     let shell = Shell::new(&["dice.ug"]);
-    let film = "ugfilm -frames 3 -vel 0 0..0.8 0 -va 20..40 -in -cap '{va}' -ex 0 -sz 81 60 dice.ug";
+    let film =
+        "ugfilm -frames 3 -vel 0 0..0.8 0 -va 20..40 -in -cap '{va}' -ex 0 -sz 81 60 dice.ug";
     shell.run(&format!("{film} -across va 2 -fo lesson.html"));
     let page = String::from_utf8(shell.read("lesson.html")).unwrap();
     let values = page.lines().filter_map(|line| line.strip_prefix("<img hidden alt=\""));
@@ -250,7 +280,9 @@ fn pages_have_a_second_slider() {
     shell.run("ugfilm -frames 4 -vel 0 0..0.8 0 -in -ex 0 -sz 81 60 dice.ug -fo read.html");
     let page = String::from_utf8(shell.read("read.html")).unwrap();
     assert!(page.contains("<img hidden alt=\"-vel 0 0.3507 0\""));
-    shell.run(&format!("{film} -across va 2 --print 5 -fo lesson.html > command.sh && sh command.sh"));
+    shell.run(&format!(
+        "{film} -across va 2 --print 5 -fo lesson.html > command.sh && sh command.sh"
+    ));
     shell.run("ugfilm -frames 1 -vel 0 0.5 0 -va 40 -in -cap 40.00 -ex 0 -sz 81 60 dice.ug -fo one_%d.png");
     assert!(shell.pixels("frame_0005.png") == shell.pixels("one_1.png"));
     for wrong in ["-across va 0", "-across ti 2", "-across va 2 -only 1"] {
@@ -302,9 +334,10 @@ fn gifs_have_the_colours_of_their_frames() {
          f (a b c d) w <.6 0 0>; v p -30 9 -20 k1; v q 30 9 -20 k2; v r 30 9 20 k1; v s -30 9 20 k2; \
          f (p q r s); l 1; cam -ep 0 -8 0 -vc 0 0 0 -va 50;",
     );
-    for (options, scene, error) in
-        [("-ti -4..4 -look shape", "gradient.ug", 0.1), ("-cv '0 0 0 .. 0 .5 0' -va 20 -tb", "dice.ug", 0.2)]
-    {
+    for (options, scene, error) in [
+        ("-ti -4..4 -look shape", "gradient.ug", 0.1),
+        ("-cv '0 0 0 .. 0 .5 0' -va 20 -tb", "dice.ug", 0.2),
+    ] {
         let film = format!("ugfilm -frames 5 {options} -sz 160 120 {scene}");
         shell.run(&format!("{film} -fps 60 -fo film.gif -keep k_%d.png"));
         let (mut sum, mut n_transparent) = (0, 0);
@@ -315,7 +348,9 @@ fn gifs_have_the_colours_of_their_frames() {
             for (shown, pixel) in shown.iter().zip(shell.pixels(&format!("k_{}.png", row + 1))) {
                 assert_eq!(shown[3] == 255, pixel[3] >= 128, "{film}");
                 if shown[3] == 255 {
-                    sum += (0..3).map(|part| u32::from(shown[part].abs_diff(pixel[part]))).sum::<u32>();
+                    sum += (0..3)
+                        .map(|part| u32::from(shown[part].abs_diff(pixel[part])))
+                        .sum::<u32>();
                 } else {
                     n_transparent += 1;
                 }
@@ -331,8 +366,12 @@ fn gifs_have_the_colours_of_their_frames() {
 #[test]
 fn the_times_of_animated_png_are_exact() {
     let shell = Shell::new(&["dice.ug"]);
-    for (rate, expected) in [("24", Some((1, 24))), ("29.97", Some((1001, 30000))), ("99.999", None)] {
-        shell.run(&format!("ugfilm -qt -frames 5 -vel 0 0..0.8 0 -sz 8 6 -fps {rate} -fo a.apng dice.ug"));
+    for (rate, expected) in
+        [("24", Some((1, 24))), ("29.97", Some((1001, 30000))), ("99.999", None)]
+    {
+        shell.run(&format!(
+            "ugfilm -qt -frames 5 -vel 0 0..0.8 0 -sz 8 6 -fps {rate} -fo a.apng dice.ug"
+        ));
         let file = shell.read("a.apng");
         let mut reader = png::Decoder::new(std::io::Cursor::new(&file)).read_info().unwrap();
         let mut seconds = 0.0;
@@ -343,7 +382,8 @@ fn the_times_of_animated_png_are_exact() {
             assert!(expected.is_none_or(|expected| delay == expected), "{rate}: {delay:?}");
             seconds += f64::from(delay.0) / f64::from(delay.1);
         }
-        let exact = expected.map_or(5.0 / 99.999, |(num, den)| 5.0 * f64::from(num) / f64::from(den));
+        let exact =
+            expected.map_or(5.0 / 99.999, |(num, den)| 5.0 * f64::from(num) / f64::from(den));
         assert!((seconds - exact).abs() < 1.0 / 60_000.0, "{rate}: {seconds}");
     }
 }
@@ -353,19 +393,24 @@ fn one_exposure_and_one_camera_for_all_frames() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
     let film = "-frames 4 -vel '0 0 0 .. 0 -.8 0' -sp -ex auto -sz 80 60";
     let [commands, messages] = shell.run(&format!("ugfilm {film} -fo f_%d.png --print dice.ug"));
-    let exposures: std::collections::BTreeSet<&str> =
-        commands.lines().map(|line| line.split(" -ex ").nth(1).unwrap().split(' ').next().unwrap()).collect();
+    let exposures: std::collections::BTreeSet<&str> = commands
+        .lines()
+        .map(|line| line.split(" -ex ").nth(1).unwrap().split(' ').next().unwrap())
+        .collect();
     let [stops] = Vec::from_iter(exposures)[..] else { panic!("{commands}") };
     assert!(messages.contains(&format!("one exposure for all frames: -ex {stops}")), "{messages}");
     shell.run("grep -v '^cam' dice.ug > bare.ug");
-    let [commands, messages] =
-        shell.run(&format!("ugfilm {film} -ex 0 -fo f_%d.png --print bare.ug").replace("-ex auto ", ""));
+    let [commands, messages] = shell
+        .run(&format!("ugfilm {film} -ex 0 -fo f_%d.png --print bare.ug").replace("-ex auto ", ""));
     let eyes: std::collections::BTreeSet<&str> = commands
         .lines()
         .map(|line| line.split(" -ep ").nth(1).unwrap().split(" |").next().unwrap())
         .collect();
     assert_eq!(eyes.len(), 1, "{commands}");
-    assert!(messages.contains("no camera in the scene") && messages.contains("in all frames"), "{messages}");
+    assert!(
+        messages.contains("no camera in the scene") && messages.contains("in all frames"),
+        "{messages}"
+    );
 }
 
 /// The exposure that follows a still scene is that of the whole film, frames have it in whatever
@@ -374,14 +419,19 @@ fn one_exposure_and_one_camera_for_all_frames() {
 fn exposures_follow_the_light() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
     let draw = |folder: &str, options: &str| {
-        shell.run(&format!("mkdir -p {folder}; ugfilm {options} -sz 64 48 street.ug -fo {folder}/f_%02d.png"))
+        shell.run(&format!(
+            "mkdir -p {folder}; ugfilm {options} -sz 64 48 street.ug -fo {folder}/f_%02d.png"
+        ))
     };
     for still in ["-frames 3", "-frames 3 -rays -aa 1", "-frames 3 -blur 1"] {
         let [_, followed] = draw("still", &format!("{still} -ex follow"));
         let [_, held] = draw("held", &format!("{still} -ex hold"));
         draw("auto", &format!("{still} -ex auto"));
         let frames = ["still", "held", "auto"].map(|folder| files(&shell, folder));
-        assert!(frames[0].len() == 3 && frames[0] == frames[2] && frames[1] == frames[2], "{still}");
+        assert!(
+            frames[0].len() == 3 && frames[0] == frames[2] && frames[1] == frames[2],
+            "{still}"
+        );
         assert!(followed.contains("one exposure for all frames") && followed == held, "{followed}");
         shell.run("rm -r still held auto");
     }
@@ -397,12 +447,16 @@ fn exposures_follow_the_light() {
     let stops = |exposure: &str| -> Vec<f64> {
         let [commands, _] =
             shell.run(&format!("ugfilm {film} {exposure} -sz 64 48 street.ug -fo x.gif --print"));
-        let stops =
-            commands.lines().map(|line| line.split(" -ex ").nth(1).unwrap().split(' ').next().unwrap());
+        let stops = commands
+            .lines()
+            .map(|line| line.split(" -ex ").nth(1).unwrap().split(' ').next().unwrap());
         stops.map(|stops| stops.parse().unwrap()).collect()
     };
     let (followed, held) = (stops("-ex follow"), stops("-ex hold"));
-    assert!(followed.len() == 6 && followed.windows(2).all(|pair| pair[0] > pair[1]), "{followed:?}");
+    assert!(
+        followed.len() == 6 && followed.windows(2).all(|pair| pair[0] > pair[1]),
+        "{followed:?}"
+    );
     assert!(followed[0] > held[0] && followed[5] < held[5]);
     let wrong = format!("ugfilm {film} -across va 2 -va 40..50 -ex follow street.ug -fo x.html");
     refused(&shell, &wrong, 2, "leave out -across, or give -ex hold");
@@ -427,7 +481,8 @@ fn a_camera_moves_past_a_mesh() {
 fn the_exposure_of_a_film_is_kept_for_the_next_start() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
     let film = |options: &str, scene: &str| {
-        let options = format!("-frames 2 -vel 0 -.8 0 -ti 0..1 -ex auto -sz 20 15 {options} -fo f_%d.png");
+        let options =
+            format!("-frames 2 -vel 0 -.8 0 -ti 0..1 -ex auto -sz 20 15 {options} -fo f_%d.png");
         let [_, messages] = shell.run(&format!("ugfilm {options} {scene}"));
         messages.lines().find(|line| line.contains("one exposure")).unwrap().to_owned()
     };
@@ -454,11 +509,16 @@ fn speeds_of_captions_are_those_of_the_scene() {
     let shell = Shell::new(&[]);
     let wall = "v a -3 30 -2; v b 3 30 -2; v c 3 30 2; l 1;";
     let camera = "cam -ep 0 0 0 -vc 0 9 0";
-    shell.write("camera.ug", format!("motion car -acc 0 .1 0 0 8; {wall} f (a b c); {camera} <car>;"));
+    shell.write(
+        "camera.ug",
+        format!("motion car -acc 0 .1 0 0 8; {wall} f (a b c); {camera} <car>;"),
+    );
     shell.write("bodies.ug", format!("{wall} f (a b c) <.3 0 0>; f (b a c) <0 .9 0>; {camera};"));
     shell.write("rest.ug", format!("{wall} f (a b c); {camera};"));
     let caption = |options: &str, scene: &str| {
-        let film = format!("ugfilm -qt -frames 3 -ti 0..4 {options} -cap '{{beta}}, {{gamma}}' -fo f_%d.png");
+        let film = format!(
+            "ugfilm -qt -frames 3 -ti 0..4 {options} -cap '{{beta}}, {{gamma}}' -fo f_%d.png"
+        );
         let [commands, _] = shell.run(&format!("{film} --print 2 {scene}"));
         commands.split("-cap '").nth(1).unwrap().split('\'').next().unwrap().to_owned()
     };
@@ -475,7 +535,12 @@ fn speeds_of_captions_are_those_of_the_scene() {
 #[test]
 fn wrong_numbers_are_found_first() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
-    refused(&shell, "ugfilm -frames 9 -sz 20 20 -va 40..-1 -dt apng dice.ug > film.apng", 2, "frame 9: ");
+    refused(
+        &shell,
+        "ugfilm -frames 9 -sz 20 20 -va 40..-1 -dt apng dice.ug > film.apng",
+        2,
+        "frame 9: ",
+    );
     assert_eq!(shell.read("film.apng").len(), 0);
 }
 
@@ -534,16 +599,22 @@ fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
     let film = "ugfilm -frames 9 -vel 0 0..0.8 0 -in -sz 80 60 dice.ug";
     // No file may be larger than 4 blocks of 512 bytes: the frames at high speed are.
-    let largest =
-        shell.run(&format!("{film} -fo f_%d.png; ls -l f_*.png | awk '{{print $5}}' | sort -n | tail -1"));
+    let largest = shell.run(&format!(
+        "{film} -fo f_%d.png; ls -l f_*.png | awk '{{print $5}}' | sort -n | tail -1"
+    ));
     let largest: u64 = largest[0].trim().parse().unwrap();
     let blocks = largest / 512;
     shell.run("mkdir small");
     let (_, messages) =
         shell.fail(&format!("ulimit -f {blocks}; trap '' XFSZ; {film} -nt 1 -fo small/f_%d.png"));
-    assert!(messages.contains("cannot write `small/f_") && messages.contains("File too large"), "{messages}");
+    assert!(
+        messages.contains("cannot write `small/f_") && messages.contains("File too large"),
+        "{messages}"
+    );
     let whole = files(&shell, ".");
-    for (name, bytes) in files(&shell, "small").into_iter().filter(|(name, _)| name.starts_with('f')) {
+    for (name, bytes) in
+        files(&shell, "small").into_iter().filter(|(name, _)| name.starts_with('f'))
+    {
         assert!(whole[&name] == bytes, "{name}");
     }
     for kind in ["gif", "apng", "y4m", "ppm", "html"] {
@@ -586,7 +657,9 @@ fn motion_blur_is_the_mean_light_of_its_moments() {
     assert!(pixels("blurred_2.png") == pixels("sharp_2.png"));
     // Frames state their size, too.
     for blur in ["", "-blur 1"] {
-        shell.run(&format!("ugfilm -frames 1 -ti 0..0 -ex 0 -lg -sz 4cm 4cm {blur} -fo size_%d.png dice.ug"));
+        shell.run(&format!(
+            "ugfilm -frames 1 -ti 0..0 -ex 0 -lg -sz 4cm 4cm {blur} -fo size_%d.png dice.ug"
+        ));
         let file = shell.read("size_1.png");
         let chunk = file.windows(4).position(|name| name == b"pHYs").unwrap();
         assert_eq!(file[chunk + 4..chunk + 8], 11811u32.to_be_bytes());
@@ -601,26 +674,35 @@ fn motion_blur_is_the_mean_light_of_its_moments() {
     }
     let [script, _] =
         shell.run(&format!("{film} -fo t1/f_%d.png --print 3 | tee moments.sh; sh -e moments.sh"));
-    let first = "# frame 3 is the mean light of the next 5 pictures, developed with -ex -1 -tc filmic\n";
+    let first =
+        "# frame 3 is the mean light of the next 5 pictures, developed with -ex -1 -tc filmic\n";
     assert!(script.starts_with(first), "{script}");
     let moments: Vec<Vec<[f32; 4]>> =
         (1..=5).map(|row| light(&shell, &format!("t1/f_3.0{row}.exr"))).collect();
     assert!(moments[0] != moments[4]);
     let development = ugimage::Development { stops: -1.0, tone: ugimage::Tone::Filmic };
     let mean = |idx: usize| {
-        let sum = |part: usize| moments.iter().map(|pixels| f64::from(pixels[idx][part])).sum::<f64>();
+        let sum =
+            |part: usize| moments.iter().map(|pixels| f64::from(pixels[idx][part])).sum::<f64>();
         let [red, green, blue] = development.apply([0, 1, 2].map(|part| (sum(part) / 5.0) as f32));
         [red, green, blue, 1.0]
     };
-    let expected = ugimage::LinearFrame::new([60, 40], true, (0..60 * 40).map(mean).collect()).to_display();
+    let expected =
+        ugimage::LinearFrame::new([60, 40], true, (0..60 * 40).map(mean).collect()).to_display();
     assert!(pixels("t1/f_3.png") == expected.pixels());
     // A frame that is done is not drawn again, unless its blur is another.
     let last = |messages: &str| messages.lines().last().unwrap_or_default().to_owned();
     let [_, messages] = shell.run(&format!("{film} -fo t1/f_%d.png"));
     assert_eq!(last(&messages), "ugfilm: note: 0 frames drawn, 4 were there already");
-    let [_, messages] = shell.run(&format!("{} -fo t1/f_%d.png", film.replace("-blur .8", "-blur .7")));
+    let [_, messages] =
+        shell.run(&format!("{} -fo t1/f_%d.png", film.replace("-blur .8", "-blur .7")));
     assert!(!messages.contains("already"), "{messages}");
-    refused(&shell, &format!("{film} -ch D -fo d_%d.exr"), 2, "-blur gives the mean of several moments");
+    refused(
+        &shell,
+        &format!("{film} -ch D -fo d_%d.exr"),
+        2,
+        "-blur gives the mean of several moments",
+    );
 }
 
 /// An edge that the eye passes at a constant rate becomes a linear ramp, in linear light.
@@ -698,7 +780,8 @@ fn frames_of_skies_are_drawn_again_after_a_change_of_any_file() {
     write("way.ug", "motion ship -acc 0 1 0 ;");
     write("more.csv", "ra,dec,mag,kelvin\n10,0,1,5000\n40,0,1,5000\n");
     let command = "ugfilm -warp -frames 2 --scene eye.ug --stars more.csv -ti 0..1 -sz 16 12 -ex 0 -fo q_%d.png stars.csv";
-    let drawn = || shell.run(command)[1].lines().any(|line| line.contains("note: 0 frames drawn, 2 were"));
+    let drawn =
+        || shell.run(command)[1].lines().any(|line| line.contains("note: 0 frames drawn, 2 were"));
     assert!(!drawn() && drawn());
     write("way.ug", "motion ship -acc 0 2 0 ;");
     assert!(!drawn() && drawn());
@@ -727,8 +810,9 @@ fn a_film_says_which_frames_are_empty_or_black() {
     let film = |options: &str, lamps: &str| {
         shell.write("pass.ug", format!("{scene} {lamps}"));
         let time = if options.contains("-ti") { "" } else { "-ti -11..29" };
-        let command =
-            format!("ugfilm -frames 9 -vel .5 0 0 {time} -sz 32 24 {options} -dt apng pass.ug > film.png");
+        let command = format!(
+            "ugfilm -frames 9 -vel .5 0 0 {time} -sz 32 24 {options} -dt apng pass.ug > film.png"
+        );
         shell.run(&command)[1].clone()
     };
     let says = |found: &str, words: &str| assert!(found.contains(words), "{found}");
@@ -736,10 +820,12 @@ fn a_film_says_which_frames_are_empty_or_black() {
     // 14 and 4.46 at 19. It is in view while |x| is less than about 9 tan 10° + 1 = 2.59.
     let found = film("-look shape", "l 1;");
     // Before a frame is drawn, and when it would be: from x = −2.59 on, a little inside the edge.
-    let before =
-        "nothing will be in the picture in 7 of 9 frames, 1..4, 7..9: what moves is in it with -ti from";
+    let before = "nothing will be in the picture in 7 of 9 frames, 1..4, 7..9: what moves is in it with -ti from";
     let times = found.split_once(before).unwrap().1.split_whitespace().next().unwrap();
-    assert!((times.parse::<f64>().unwrap() - (-2.59 / 0.5 + libm::hypot(9.0, 2.59))).abs() < 0.3, "{times}");
+    assert!(
+        (times.parse::<f64>().unwrap() - (-2.59 / 0.5 + libm::hypot(9.0, 2.59))).abs() < 0.3,
+        "{times}"
+    );
     // Once: at the end there is nothing to add.
     assert!(!found.contains("nothing is in") && !found.contains("is black in"), "{found}");
     assert!(!film("-look shape -ti 9..10", "l 1;").contains("nothing"));
@@ -759,12 +845,14 @@ fn a_film_says_which_frames_are_empty_or_black() {
     assert!(!found.contains("will be"), "{found}");
     says(&found, "nothing is in the picture in 7 of 9 frames that were drawn, 1..4, 7..9: ");
     // Measured frames are named once, before; frames between them are not measured.
-    let half = "c_rgb grey .5 .5 .5; v a -9 9 -9; v b 9 9 -9; v c 9 9 9; v d -9 9 9; f (a b c d) grey;
+    let half =
+        "c_rgb grey .5 .5 .5; v a -9 9 -9; v b 9 9 -9; v c 9 9 9; v d -9 9 9; f (a b c d) grey;
                 cam -ep 0 0 0 -vc 0 9 0 -va 20; l 1;";
     shell.write("fade.ug", half);
     let fade = |frames: &str| {
-        let command =
-            format!("ugfilm {frames} -vel 0 0..0.9 0 -in -va 90 -sz 32 24 -dt apng fade.ug > film.png");
+        let command = format!(
+            "ugfilm {frames} -vel 0 0..0.9 0 -in -va 90 -sz 32 24 -dt apng fade.ug > film.png"
+        );
         shell.run(&command)[1].clone()
     };
     let dark = "hardly anything is bright enough to be seen";
@@ -793,7 +881,12 @@ fn a_camera_follows_what_moves() {
         let middle = lit.iter().sum::<f64>() / lit.len() as f64;
         assert!(lit.len() > 4 && (middle - 31.5).abs() < 1.5, "{frame}: {} {middle}", lit.len());
     }
-    refused(&shell, &format!("{film} -follow -vc 0..1 9 0 -fo g_%d.png pass.ug"), 2, "leave out -vc");
+    refused(
+        &shell,
+        &format!("{film} -follow -vc 0..1 9 0 -fo g_%d.png pass.ug"),
+        2,
+        "leave out -vc",
+    );
 }
 
 /// `ffprobe` counts all frames in films that `ugfilm` writes with ffmpeg.
@@ -804,7 +897,8 @@ fn films_by_ffmpeg_have_all_frames() {
     }
     let shell = Shell::new(&["street.ug"]);
     for file in ["a.mp4", "a.webm"] {
-        let film = format!("ugfilm -qt -frames 3 -cv '0 0 0 .. 0 .9 0' -sz 32 16 -fo {file} street.ug");
+        let film =
+            format!("ugfilm -qt -frames 3 -cv '0 0 0 .. 0 .9 0' -sz 32 16 -fo {file} street.ug");
         shell.run(&film);
         let probe = "ffprobe -v error -count_frames -of flat -show_entries stream=nb_read_frames";
         let [found, messages] = shell.run(&format!("{probe} {file}"));

@@ -74,7 +74,10 @@ const PICTURES: [(&str, &str); 36] = [
         "lit_pot | uglorentz -vel .6 0 0 -in | ugdoppler -li -ir --no-doppler | ugrainbow -sz 160 120",
     ),
     ("colours-mixed-halves", "uglorentz -vel 0 0 0 halves.ug | draw"),
-    ("colours-repeated-halves", "uglorentz -vel 0 0 0 halves.ug | ugdoppler -vr | ugrainbow -sz 160 120"),
+    (
+        "colours-repeated-halves",
+        "uglorentz -vel 0 0 0 halves.ug | ugdoppler -vr | ugrainbow -sz 160 120",
+    ),
     ("wavelengths-380-to-780-rainbow", "ugrainbow -wi -sz 160 120 rainbow.ug"),
     // Interpolation from red to blue passes through the spectrum, at different places by hue and by
     // wavelength.
@@ -112,7 +115,8 @@ fn check(scenes: &[&str], command: &str, names: &[&str]) {
 #[test]
 fn pictures_are_those_recorded() {
     PICTURES.par_iter().for_each(|(name, command)| {
-        let words = format!("{command}{}", if command.contains("lit_pot") { " teapot.ug" } else { "" });
+        let words =
+            format!("{command}{}", if command.contains("lit_pot") { " teapot.ug" } else { "" });
         let scenes: Vec<&str> = words.split(' ').filter(|word| word.ends_with(".ug")).collect();
         check(&scenes, &format!("{DEFINITIONS}{{ {command}; }} > {name}.png"), &[name]);
     });

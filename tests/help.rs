@@ -29,15 +29,18 @@ fn printed(folder: &Path, program: &str, option: &str) -> String {
 #[test]
 fn short_help_is_one_screenful() {
     let folder = programs::folder();
-    for manual in
-        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
-    {
+    for manual in manuals!(
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+    ) {
         for part in manual.commands.iter().chain([&manual]) {
             let name = &part.name;
             let help = printed(folder, name, "-h");
             let lines = help.lines().count();
             let columns = help.lines().map(|line| line.chars().count()).max().unwrap();
-            assert!(lines <= SCREEN[0] && columns <= SCREEN[1], "{name}: {lines} x {columns}\n{help}");
+            assert!(
+                lines <= SCREEN[0] && columns <= SCREEN[1],
+                "{name}: {lines} x {columns}\n{help}"
+            );
             assert!(help.starts_with(&format!("{}\n", part.about)), "{help}");
             assert!(help.contains(&format!("\nUsage: {name} ")), "{help}");
             let options = help.lines().filter(|line| line.starts_with("  -"));
@@ -45,7 +48,8 @@ fn short_help_is_one_screenful() {
             assert!(help.ends_with(&format!(": {name} --help\n")), "{help}");
         }
         // Every name that a program calls essential is one of its options.
-        let found: Vec<&str> = manual.essential_options().into_iter().map(|(name, _)| name).collect();
+        let found: Vec<&str> =
+            manual.essential_options().into_iter().map(|(name, _)| name).collect();
         assert_eq!(found, manual.essential, "{}", manual.name);
         assert!((5..=12).contains(&found.len()), "{found:?}");
     }
@@ -54,15 +58,17 @@ fn short_help_is_one_screenful() {
 #[test]
 fn help_has_everything_as_documented() {
     let folder = programs::folder();
-    for manual in
-        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
-    {
+    for manual in manuals!(
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+    ) {
         for part in manual.commands.iter().chain([&manual]) {
             let help = printed(folder, &part.name, "--help");
             for heading in ["Usage", "Common options", "Exit status", "Documentation"] {
                 assert!(help.contains(&format!("\n{heading}:")), "{heading}: {help}");
             }
-            part.examples.iter().for_each(|line| assert!(help.contains(&format!("\n  {line}\n")), "{help}"));
+            part.examples
+                .iter()
+                .for_each(|line| assert!(help.contains(&format!("\n  {line}\n")), "{help}"));
             let mut n_options = 0;
             for option in part.options() {
                 let line = format!("  {} {}", option.names.join(", "), option.syntax());
@@ -74,12 +80,14 @@ fn help_has_everything_as_documented() {
             let is_option = |line: &&str| line.starts_with("  -");
             for line in help.lines().filter(is_option) {
                 let first = line.trim_start().split([' ', ',']).next().unwrap();
-                let is_short =
-                    first.trim_start_matches('-').len() <= 4 && !["--help", "--all"].contains(&first);
+                let is_short = first.trim_start_matches('-').len() <= 4
+                    && !["--help", "--all"].contains(&first);
                 assert_eq!(first.starts_with("--"), !is_short, "{first}: {help}");
             }
             let words = help.lines().filter(is_option).flat_map(|line| line.split(' '));
-            for name in words.filter(|word| word.starts_with('-')).map(|word| word.trim_end_matches(',')) {
+            for name in
+                words.filter(|word| word.starts_with('-')).map(|word| word.trim_end_matches(','))
+            {
                 assert!(
                     part.options().any(|option| option.names.iter().any(|other| other == name)),
                     "{name}"
@@ -94,9 +102,9 @@ fn help_has_everything_as_documented() {
 #[test]
 fn names_in_help_are_accepted() {
     let folder = programs::folder();
-    for manual in
-        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
-    {
+    for manual in manuals!(
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+    ) {
         for option in manual.options() {
             for name in option
                 .names
@@ -125,7 +133,8 @@ fn names_in_help_are_accepted() {
 /// help has it, or else that has it at all.
 #[test]
 fn remedies_know_the_options_of_all_programs() {
-    let manuals = manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet);
+    let manuals =
+        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet);
     let mut owners: BTreeMap<String, usize> = BTreeMap::new();
     for is_in_short_help in [true, false] {
         for (row, manual) in manuals.iter().enumerate() {
@@ -140,7 +149,8 @@ fn remedies_know_the_options_of_all_programs() {
         }
     }
     let line = |(row, manual): (usize, &Manual)| {
-        let names = owners.iter().filter(|(_, owner)| **owner == row).map(|(name, _)| name.as_str());
+        let names =
+            owners.iter().filter(|(_, owner)| **owner == row).map(|(name, _)| name.as_str());
         format!("{}: {}\n", manual.name, names.collect::<Vec<_>>().join(" "))
     };
     let expected: String = manuals.iter().enumerate().map(line).collect();
@@ -149,7 +159,10 @@ fn remedies_know_the_options_of_all_programs() {
         std::fs::write(&path, &expected).unwrap();
     }
     let recorded = std::fs::read_to_string(&path).unwrap();
-    assert!(recorded == expected, "write options_of_programs.txt anew, with UG_BLESS=1:\n{expected}");
+    assert!(
+        recorded == expected,
+        "write options_of_programs.txt anew, with UG_BLESS=1:\n{expected}"
+    );
     for (name, program) in
         [("vel", "uglorentz"), ("gw", "ugdoppler"), ("sz", "ugrainbow"), ("rd", "ugphoton")]
     {
@@ -170,9 +183,9 @@ fn examples_in_help_work() {
          for file in film.gif frame_%04d.png; do ugfilm -frames 2 -sz 16 16 ship.ug -fo $file; done".to_owned(),
     ]);
     pictures.run(&pictures.commands[0], folder.path(), programs).unwrap();
-    for manual in
-        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
-    {
+    for manual in manuals!(
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+    ) {
         let page = Page::of_commands("--help", &manual.examples);
         assert!(page.commands.len() >= 2, "{}", manual.name);
         for command in &page.commands {
@@ -184,7 +197,8 @@ fn examples_in_help_work() {
                 || !messages.contains("nothing is drawn") && !messages.contains("is black");
             assert!(is_drawn, "{command}: {messages}");
             for file in written_files(command) {
-                let size = std::fs::metadata(folder.path().join(&file)).map_or(0, |made| made.len());
+                let size =
+                    std::fs::metadata(folder.path().join(&file)).map_or(0, |made| made.len());
                 assert!(size > 300, "{command}: {} has {size} bytes", file.display());
             }
         }
@@ -196,7 +210,8 @@ fn examples_in_help_work() {
 fn programs_complete_command_lines() {
     let folder = programs::folder();
     let completed = |program: &str, words: &[&str]| {
-        let output = Command::new(folder.join(program)).arg("--complete").args(words).output().unwrap();
+        let output =
+            Command::new(folder.join(program)).arg("--complete").args(words).output().unwrap();
         assert!(output.status.success() && output.stderr.is_empty());
         String::from_utf8(output.stdout).unwrap()
     };

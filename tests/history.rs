@@ -34,7 +34,10 @@ fn a_picture_is_drawn_again_by_its_history() {
         "uglorentz 'my dice.ug' -sd 1 | ugrainbow -xc -sz 320 200 -aa 1 -cap \"it's \\$HOME; γ | 'x'\"",
     );
     // Through a mesh and back.
-    check("dice.ug", "uglorentz dice.ug -vel 0 .5 0 | ugmesh -dt ply | ugmesh | ugrainbow -sz 60 40");
+    check(
+        "dice.ug",
+        "uglorentz dice.ug -vel 0 .5 0 | ugmesh -dt ply | ugmesh | ugrainbow -sz 60 40",
+    );
 }
 
 #[test]
@@ -73,7 +76,8 @@ fn changed_and_missing_scenes_are_noted() {
     assert_eq!(messages("cd sub; ugsheet --history ../a.png"), elsewhere);
     let changed = "ugsheet: warning: `dice.ug` has changed since the picture was drawn\n";
     assert_eq!(messages("echo >> dice.ug; ugsheet --history a.png"), changed);
-    let sheet = "ugsheet: note: `s.png` has 2 pipes: send the output of each to a file of its own\n";
+    let sheet =
+        "ugsheet: note: `s.png` has 2 pipes: send the output of each to a file of its own\n";
     assert_eq!(
         messages("ugsheet -lb none a.png b.png > s.png; ugsheet --history s.png"),
         changed.repeat(2) + sheet
@@ -150,8 +154,14 @@ fn tiles_are_joined_to_the_bytes_of_the_whole_picture() {
     );
     shell.run(&format!("echo >> dice.ug; {draw} -tb -crop 0 0 20 25 > other.png"));
     let other = message("ugsheet --tiles tile-*.png other.png");
-    assert!(other.starts_with("ugsheet: error: `other.png`: not drawn by the command that"), "{other}");
+    assert!(
+        other.starts_with("ugsheet: error: `other.png`: not drawn by the command that"),
+        "{other}"
+    );
     assert!(message("ugsheet --tiles whole.png").contains("which part of a picture it is (-crop)"));
-    assert!(message("ugsheet --tiles -fo a.pdf tile-*.png").contains("--tiles writes the picture as PNG"));
+    assert!(
+        message("ugsheet --tiles -fo a.pdf tile-*.png")
+            .contains("--tiles writes the picture as PNG")
+    );
     assert!(message("ugsheet --tiles -cols 2 tile-*.png").contains("-cols"));
 }

@@ -56,7 +56,8 @@ fn libraries_hold() {
 fn motions_hold() {
     let body = "v a 0 0 0 ; v b .5 0 0 ; v c 0 .5 0 ; f (a b c) <m> ;\n";
     let pieces = |n: i32, first: i32| {
-        let piece = |idx: i32| format!(" -acc {} 0 0 {} {}", 0.1 - 0.2 * (idx & 1) as f64, idx, idx + 1);
+        let piece =
+            |idx: i32| format!(" -acc {} 0 0 {} {}", 0.1 - 0.2 * (idx & 1) as f64, idx, idx + 1);
         (first..first + n).map(piece).collect::<String>()
     };
     let grid = |n: i32| {
@@ -77,12 +78,24 @@ fn motions_hold() {
             format!("motion m -at 1e300 0 0 -orbit 0 0 0 0 0 1 1e-301 ;\n{body}"),
             PHOTON,
         ),
-        ("its place overflows", format!("motion m -spin 0 0 1 -shift 1e308 1e308 0 0 ;\n{body}"), PHOTON),
+        (
+            "its place overflows",
+            format!("motion m -spin 0 0 1 -shift 1e308 1e308 0 0 ;\n{body}"),
+            PHOTON,
+        ),
         ("its acceleration overflows", format!("motion m -acc 1e308 0 0 -3 -2 ;\n{body}"), CHECK),
         ("two at all times", format!("motion m -spin 0 0 .1 -spin 0 .1 0 ;\n{body}"), CHECK),
         ("a flat orbit", format!("motion m -at 1e300 0 0 -orbit 0 0 0 0 0 1 0 ;\n{body}"), CHECK),
-        ("fast spin", format!("motion m -spin 1e17 1e17 1 -orbit .1 .1 0 0 0 1 0 ;\n{body}"), CHECK),
-        ("many pieces in the past", format!("motion m{} ;\n{body}", pieces(200_000, -300_000)), CHECK),
+        (
+            "fast spin",
+            format!("motion m -spin 1e17 1e17 1 -orbit .1 .1 0 0 0 1 0 ;\n{body}"),
+            CHECK,
+        ),
+        (
+            "many pieces in the past",
+            format!("motion m{} ;\n{body}", pieces(200_000, -300_000)),
+            CHECK,
+        ),
         (
             "many pieces and vertices",
             format!("motion m{} ;\n{}", pieces(20_000, 0).replace("0.1", "0.001"), grid(5000)),

@@ -17,7 +17,8 @@ use ugtests::tools::{self, OIIOTOOL};
 const SIZE: [u32; 2] = [24, 18];
 
 /// Bright, tiny and negative light, and hues.
-const GLARE: &str = "c_xyz hot 900 400 1; c_xyz green .2 3 .1; c blue .7 220 .8; c dim .001 40; l 1;
+const GLARE: &str =
+    "c_xyz hot 900 400 1; c_xyz green .2 3 .1; c blue .7 220 .8; c dim .001 40; l 1;
     v a -4 9 -3 hot; v b 1 9 -3 green; v c 1 9 3 dim; v d -4 9 3 blue; f (a b c d);
     v e 0.3 8 -3; v g 3.7 8 -2; v h 2 7 3.1; f (e g h) blue; cam -ep 0 0 0 -vc 0 9 0 -va 60 50;";
 
@@ -26,7 +27,10 @@ const GLARE: &str = "c_xyz hot 900 400 1; c_xyz green .2 3 .1; c blue .7 220 .8;
 fn oiiotool(args: &[&str], files: &[&Path]) -> String {
     let output = Command::new("oiiotool").args(args).args(files).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success() && output.stderr.is_empty() && !text.contains("ERROR"), "{text}");
+    assert!(
+        output.status.success() && output.stderr.is_empty() && !text.contains("ERROR"),
+        "{text}"
+    );
     text
 }
 
@@ -65,7 +69,14 @@ fn another_program_reads_the_same_light() {
     let folder = tempfile::tempdir().unwrap();
     let black = PictureOptions::default().background;
     let draw = |format, background| {
-        draw(GLARE, PictureOptions { output: Output::Color(format), background, ..PictureOptions::default() })
+        draw(
+            GLARE,
+            PictureOptions {
+                output: Output::Color(format),
+                background,
+                ..PictureOptions::default()
+            },
+        )
     };
     // The numbers in the PFM file: three floats per pixel, rows from the bottom.
     let pfm = draw(Format::Pfm, black);
@@ -82,21 +93,29 @@ fn another_program_reads_the_same_light() {
     for (name, bytes) in [("a.pfm", pfm.clone()), ("a.exr", draw(Format::Exr, black))] {
         for (ours, light) in read(&write(folder.path(), name, &bytes)).iter().zip(&light) {
             // `oiiotool` prints nine decimals.
-            let is_same = ours.iter().zip(*light).all(|(a, b)| (a - b).abs() < 1e-9 + 1e-8 * b.abs());
+            let is_same =
+                ours.iter().zip(*light).all(|(a, b)| (a - b).abs() < 1e-9 + 1e-8 * b.abs());
             assert!(ours.len() == 3 && is_same, "{name}: {ours:?} for {light:?}");
         }
     }
-    for (ours, light) in read(&write(folder.path(), "a.hdr", &draw(Format::Hdr, black))).iter().zip(&light) {
+    for (ours, light) in
+        read(&write(folder.path(), "a.hdr", &draw(Format::Hdr, black))).iter().zip(&light)
+    {
         let brightest = light.iter().fold(0.0f64, |a, b| a.max(*b));
-        let is_near = ours.iter().zip(*light).all(|(a, b)| (a - b.max(0.0)).abs() <= brightest / 128.0);
+        let is_near =
+            ours.iter().zip(*light).all(|(a, b)| (a - b.max(0.0)).abs() <= brightest / 128.0);
         assert!(is_near, "{ours:?} for {light:?}");
     }
     // With transparency, colours are premultiplied by alpha, which equals the light on black.
-    let clear = read(&write(folder.path(), "clear.exr", &draw(Format::Exr, Background::Transparent)));
+    let clear =
+        read(&write(folder.path(), "clear.exr", &draw(Format::Exr, Background::Transparent)));
     for (ours, light) in clear.iter().zip(&light) {
         let is_same = ours.iter().zip(*light).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
         assert!(ours.len() == 4 && is_same, "{ours:?} for {light:?}");
-        assert!((9.0 * ours[3] - (9.0 * ours[3]).round()).abs() < 1e-6, "alpha is a part of nine samples");
+        assert!(
+            (9.0 * ours[3] - (9.0 * ours[3]).round()).abs() < 1e-6,
+            "alpha is a part of nine samples"
+        );
     }
     assert!(clear.iter().any(|pixel| pixel[3] > 0.0 && pixel[3] < 1.0));
 }
@@ -107,8 +126,9 @@ fn another_program_reads_the_same_levels() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let draw =
-        |format| draw(GLARE, PictureOptions { output: Output::Color(format), ..PictureOptions::default() });
+    let draw = |format| {
+        draw(GLARE, PictureOptions { output: Output::Color(format), ..PictureOptions::default() })
+    };
     let png = read(&write(folder.path(), "a.png", &draw(Format::Png)));
     assert_eq!(read(&write(folder.path(), "a.ppm", &draw(Format::Ppm))), png);
     let deep = read(&write(folder.path(), "deep.png", &draw(Format::Png16)));
@@ -142,8 +162,9 @@ fn channels_describe_the_emission_event() {
     let listed: Vec<&str> = list.unwrap().split(", ").collect();
     assert_eq!(listed.len(), 3 + 7, "{header}");
     assert!(header.contains("0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329"), "{header}");
-    let row =
-        |name: &str| listed.iter().position(|listed| *listed == name).unwrap_or_else(|| panic!("{header}"));
+    let row = |name: &str| {
+        listed.iter().position(|listed| *listed == name).unwrap_or_else(|| panic!("{header}"))
+    };
 
     let scene = parse(&Source::new("plane.ug", text), &Options::default()).unwrap().scene;
     let pinhole = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, SIZE);
@@ -189,7 +210,8 @@ fn the_id_channel_numbers_faces() {
     };
     let text = [0, 1, 3].map(column).concat() + "cam -ep 0 0 0 -vc 0 4 0 -va 53.1301023542 40;";
     let output = Output::Color(Format::Exr);
-    let options = PictureOptions { output, channels: vec![Channel::Id], ..PictureOptions::default() };
+    let options =
+        PictureOptions { output, channels: vec![Channel::Id], ..PictureOptions::default() };
     let path = write(folder.path(), "a.exr", &draw(&text, options));
     let counted = folder.path().join("id.exr");
     // `oiiotool` scales integers by the largest one.

@@ -89,7 +89,12 @@ fn files_that_a_mesh_names_are_limited() {
         ("endless", "--allow-outside", 1, "cannot read `endless`: It is not a regular file"),
         ("pipe", "", 1, "cannot read `pipe`: It is not a regular file"),
         ("../out/huge", "", 1, "cannot read `../out/huge`: It is outside the folder of the input"),
-        ("%2e%2e/out/huge", "", 1, "cannot read `../out/huge`: It is outside the folder of the input"),
+        (
+            "%2e%2e/out/huge",
+            "",
+            1,
+            "cannot read `../out/huge`: It is outside the folder of the input",
+        ),
         (&absolute, "", 1, "It is outside the folder of the input"),
         (&absolute, "--allow-outside", 0, ""),
     ] {
@@ -120,7 +125,8 @@ fn files_that_a_scene_names_are_in_its_folder() {
         let named = format!("ugparse flatten in/scene.ug {options}");
         // On standard input, the current folder is that of the input.
         for line in [named, format!("cd in; ugparse flatten {options} < scene.ug")] {
-            let output = check(&shell, LITTLE, &line, status, if status == 0 { "" } else { expected });
+            let output =
+                check(&shell, LITTLE, &line, status, if status == 0 { "" } else { expected });
             assert!(status != 0 || output == expected, "{file}: {output}");
             let messages = String::from_utf8_lossy(&run(&shell, LITTLE, &line).stderr).into_owned();
             assert!(!messages.contains("root:"), "{messages}");
@@ -156,7 +162,8 @@ fn arrays_are_limited_by_what_they_write() {
     let faces = "f (p0 p1 p2) (p3 p4 p5);".repeat(100);
     let wires = format!("w {};", "(p0 p1)".repeat(500));
     let cameras = "cam -ep 1 2 3;".repeat(100);
-    for content in [points.clone(), format!("{points}{faces}"), format!("{points}{wires}"), cameras] {
+    for content in [points.clone(), format!("{points}{faces}"), format!("{points}{wires}"), cameras]
+    {
         let text = format!("def d; {content} end; def e; a (d) 490; end; a (e) 490;");
         shell.write("in/array.ug", text);
         check(&shell, LITTLE, "ugparse count in/array.ug", 1, "the expanded scene would have ");
@@ -169,7 +176,13 @@ fn lack_of_memory_is_an_error() {
     shell.write("ship.ug", scenes::text("ship"));
     for options in ["", "-dt png16", "-dt exr -ch D", "-dt hdr", "-ex 1", "-tb", "-xc"] {
         let line = format!("ugrainbow ship.ug -sz 16000 16000 {options}");
-        check(&shell, LITTLE, &line, 1, "there is not enough memory for a picture of 16000 x 16000 pixels");
+        check(
+            &shell,
+            LITTLE,
+            &line,
+            1,
+            "there is not enough memory for a picture of 16000 x 16000 pixels",
+        );
     }
     // Whatever cannot be allocated.
     shell.write("in/array.ug", "def d; v a 0 0 0; end; a (d) 9000000;");
@@ -178,7 +191,8 @@ fn lack_of_memory_is_an_error() {
     assert!(fs::read_dir(shell.folder()).expect("a folder").count() < 6);
     // A sheet is as large as its text.
     let title = "word ".repeat(8);
-    let line = format!("ugrainbow ship.ug -sz 40 30 -qt > a.png; ugsheet a.png -ts 1000 -title '{title}'");
+    let line =
+        format!("ugrainbow ship.ug -sz 40 30 -qt > a.png; ugsheet a.png -ts 1000 -title '{title}'");
     for format in ["png", "svg", "pdf"] {
         check(&shell, LEAST, &format!("{line} -dt {format}"), 1, "there is not enough memory for ");
     }
@@ -195,7 +209,8 @@ fn pixels_take_memory_as_they_are_read() {
     let frame = LinearFrame::from(&Frame::opaque(4000, 2000));
     let mut file = Format::Exr.encode_linear(&frame, &Metadata::default(), Compression::Fast);
     let name = b"chunkCount\0int\0\x04\0\0\0";
-    let at = file.windows(name.len()).position(|bytes| bytes == name).expect("the attribute") + name.len();
+    let at = file.windows(name.len()).position(|bytes| bytes == name).expect("the attribute")
+        + name.len();
     file[at] ^= 1;
     shell.write("in/lie.exr", file);
     check(&shell, LEAST, "ugwarp in/lie.exr -sz 8 8", 1, "chunk count");
@@ -227,7 +242,13 @@ fn large_panoramas_are_bounded() {
     check(&shell, 1_000_000, "ugwarp -qt -nt 2 -cv 0 .5 0 -sz 160 90 -dt ppm sky.png", 0, "");
     check(&shell, 2_000_000, "ugwarp -qt -nt 2 -cv 0 .9 0 -pan -sz 400 200 -dt ppm sky.png", 0, "");
     write("huge.png", [32_768, 16_384]);
-    check(&shell, LITTLE, "ugwarp huge.png", 1, "32768 x 16384 pixels exceed the limit of 268435456");
+    check(
+        &shell,
+        LITTLE,
+        "ugwarp huge.png",
+        1,
+        "32768 x 16384 pixels exceed the limit of 268435456",
+    );
 }
 
 /// Motions along one table keep it once, in text as well; what is kept counts as memory. One face
@@ -252,10 +273,12 @@ fn tables_of_motions_and_corners_of_figures_take_memory_in_proportion() {
     );
     check(&shell, LITTLE, "ugparse in/none.ug", 1, "motion `m1` states no table of a path");
 
-    let fan: String =
-        (0..1500).map(|k| format!("c k{k} .5 {k}; v c{k} 1 .5 {k}; f (a b c{k}) k{k};\n")).collect();
+    let fan: String = (0..1500)
+        .map(|k| format!("c k{k} .5 {k}; v c{k} 1 .5 {k}; f (a b c{k}) k{k};\n"))
+        .collect();
     shell.write("in/fan.ug", format!("v a 0 0 0; v b 1 0 0; cam -ep 0 -12 3 -vc 0 0 0;\n{fan}"));
-    let refused = "mix more than 4194304 colours of faces that meet: give faces vertices of their own";
+    let refused =
+        "mix more than 4194304 colours of faces that meet: give faces vertices of their own";
     check(&shell, 4 * LITTLE, "uglorentz -nt 1 -vel .5 0 0 in/fan.ug", 1, refused);
 
     let corner = |k: usize| {

@@ -34,7 +34,8 @@ fn check(words: &[&str], options: &[&str]) {
     let (name, others) = words.split_first().unwrap();
     // The options of a look come first.
     let others = others.iter().filter(|word| !is_look(word)).copied();
-    let spelt: Vec<&str> = [&[*name, "-look=1988"], options].concat().into_iter().chain(others).collect();
+    let spelt: Vec<&str> =
+        [&[*name, "-look=1988"], options].concat().into_iter().chain(others).collect();
     assert_eq!(of_program(words), of_program(&spelt), "{words:?} is not {spelt:?}");
 }
 

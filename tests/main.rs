@@ -1,7 +1,11 @@
 //! The tests of several crates, in one program: `cargo test -p ugtests MODULE` runs those of a
 //! module.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, its helpers too"
+)]
 
 mod acceleration;
 mod avenue;

@@ -5,8 +5,8 @@ use ugfilm::{FilmSubject, Pipe, Program};
 use ugimage::{Format, Samples};
 use ugphysics::{Hsv, Velocity};
 use ugpicture::{
-    AnnotationOptions, Background, Canvas, Channel, IsoOptions, MapOptions, Output, PictureOptions, Quantity,
-    Scale,
+    AnnotationOptions, Background, Canvas, Channel, IsoOptions, MapOptions, Output, PictureOptions,
+    Quantity, Scale,
 };
 use ugscene::CameraOptions;
 use ugtests::scenes;
@@ -37,8 +37,13 @@ fn positions_and_rays_meet() {
         let mut pipe = Pipe::new(programs);
         let channels = vec![Channel::Position, Channel::Ray, Channel::Distance];
         let output = Output::Color(Format::Exr);
-        pipe.picture =
-            PictureOptions { size: SIZE, samples: 1, output, channels, ..PictureOptions::default() };
+        pipe.picture = PictureOptions {
+            size: SIZE,
+            samples: 1,
+            output,
+            channels,
+            ..PictureOptions::default()
+        };
         let frame = pipe.draw(FilmSubject::Scene(&scene)).unwrap().0.into_light().unwrap();
         let plane = |name: &str| {
             let plane = frame.planes().iter().find(|plane| plane.name == name).unwrap();
@@ -46,10 +51,14 @@ fn positions_and_rays_meet() {
             values
         };
         let vector = |name: &str, idx: usize| {
-            DVec3::from_array(["X", "Y", "Z"].map(|axis| f64::from(plane(&format!("{name}.{axis}"))[idx])))
+            DVec3::from_array(
+                ["X", "Y", "Z"].map(|axis| f64::from(plane(&format!("{name}.{axis}"))[idx])),
+            )
         };
         let mut n_seen = 0;
-        for (idx, &distance) in plane("distance").iter().enumerate().filter(|(_, far)| far.is_finite()) {
+        for (idx, &distance) in
+            plane("distance").iter().enumerate().filter(|(_, far)| far.is_finite())
+        {
             let (position, ray) = (vector("position", idx), vector("ray", idx));
             let error = (view.eye + f64::from(distance) * ray - position).length();
             assert!(error < 1e-5 * f64::from(distance), "{drive} {idx}: {error}");
@@ -92,10 +101,12 @@ fn false_colours_are_those_of_the_channels() {
             let (mut n_seen, mut n_unlike) = (0, 0);
             for (idx, &value) in values.iter().enumerate() {
                 let seen = value.is_finite() && value != 0.0;
-                let expected = if seen { scale.color(scale.place(f64::from(value))) } else { [0; 3] };
+                let expected =
+                    if seen { scale.color(scale.place(f64::from(value))) } else { [0; 3] };
                 let [red, green, blue, _] = drawn.pixels()[idx];
                 n_seen += usize::from(seen);
-                let is_same = [red, green, blue].iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 1);
+                let is_same =
+                    [red, green, blue].iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 1);
                 n_unlike += usize::from(!is_same);
             }
             assert!(
@@ -117,11 +128,18 @@ fn lines_are_where_the_formula_has_them() {
         samples: 2,
         background: Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }),
         annotations: AnnotationOptions { iso, ..AnnotationOptions::default() },
-        camera: CameraOptions { view_angle: Some((150.0, Some(150.0))), ..CameraOptions::default() },
+        camera: CameraOptions {
+            view_angle: Some((150.0, Some(150.0))),
+            ..CameraOptions::default()
+        },
         ..PictureOptions::default()
     };
-    let config =
-        ugwarp::Config { velocity, shift: ugwarp::ColorShift::NONE, picture, ..ugwarp::Config::default() };
+    let config = ugwarp::Config {
+        velocity,
+        shift: ugwarp::ColorShift::NONE,
+        picture,
+        ..ugwarp::Config::default()
+    };
     let frame = ugwarp::render(&sky, &config).unwrap().into_frame().unwrap();
     let cosine = (1.0 - 1.0 / velocity.gamma()) / 0.6;
     let radius = 200.5 * libm::tan(libm::acos(cosine)) / libm::tan(75.0_f64.to_radians());

@@ -42,7 +42,9 @@ fn obj(size: f64, place: DVec3) -> Vec<u8> {
     let (vertices, triangles) = blob(size, place);
     let mut text = String::new();
     vertices.iter().for_each(|p| writeln!(text, "v {} {} {}", p.x, p.y, p.z).unwrap());
-    triangles.iter().for_each(|[a, b, c]| writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).unwrap());
+    triangles
+        .iter()
+        .for_each(|[a, b, c]| writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).unwrap());
     text.into_bytes()
 }
 
@@ -70,7 +72,8 @@ fn stl(size: f64, place: DVec3) -> Vec<u8> {
 
 /// The scene that `ugmesh` makes of a mesh.
 fn converted(mesh: &[u8], format: MeshFormat, target: Target, stage: bool) -> Vec<u8> {
-    let config = ugmesh::Config { format: Some(format), target, stage, ..ugmesh::Config::default() };
+    let config =
+        ugmesh::Config { format: Some(format), target, stage, ..ugmesh::Config::default() };
     ugmesh::run(&config, &MeshFile::new("blob", mesh)).unwrap().bytes
 }
 
@@ -81,8 +84,11 @@ fn scene(text: &[u8]) -> Scene {
 
 /// `uglorentz -vel … --keep-in-view`, without the camera of a test.
 fn as_seen(text: &[u8], velocity: DVec3) -> Vec<u8> {
-    let config =
-        uglorentz::Config { velocity: Some(velocity), in_place: true, ..uglorentz::Config::default() };
+    let config = uglorentz::Config {
+        velocity: Some(velocity),
+        in_place: true,
+        ..uglorentz::Config::default()
+    };
     let (seen, report) = uglorentz::apply(scene(text), &config).unwrap();
     assert_eq!(report.notes().len(), 1, "{:?}", report.notes());
     ugparse::write(&seen)
@@ -165,7 +171,8 @@ fn exported_normals_are_those_of_the_seen_shape() {
         let seen = ugparse::write(&seen);
         let obj = String::from_utf8(converted(&seen, MeshFormat::Ug, Target::Obj, false)).unwrap();
         let rows = |word: &str| -> Vec<DVec3> {
-            let numbers = |line: &str| line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
+            let numbers =
+                |line: &str| line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
             obj.lines()
                 .filter_map(|line| line.strip_prefix(word))
                 .map(|line| DVec3::from_slice(&numbers(line)))
@@ -185,9 +192,12 @@ fn exported_normals_are_those_of_the_seen_shape() {
 fn gltf_has_the_camera_of_the_scene() {
     let scene = "v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c); cam -ep 1 2 3 -vc 1 7 3 -va 60 40;";
     let file: serde_json::Value =
-        serde_json::from_slice(&converted(scene.as_bytes(), MeshFormat::Ug, Target::Gltf, false)).unwrap();
+        serde_json::from_slice(&converted(scene.as_bytes(), MeshFormat::Ug, Target::Gltf, false))
+            .unwrap();
     let lens = &file["cameras"][0]["perspective"];
-    let near = |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() - expected).abs() < 1e-6;
+    let near = |value: &serde_json::Value, expected: f64| {
+        (value.as_f64().unwrap() - expected).abs() < 1e-6
+    };
     // A picture of 4 to 3 that shows at least the angles of the scene.
     let down = 2.0 * libm::atan(libm::tan(30f64.to_radians()) * 3.0 / 4.0);
     assert!(near(&lens["yfov"], down) && near(&lens["aspectRatio"], 4.0 / 3.0), "{lens}");
@@ -195,7 +205,10 @@ fn gltf_has_the_camera_of_the_scene() {
     // y of the scene is -z: the camera looks along it, as cameras of glTF do, from 1 3 -2.
     let matrix = file["nodes"][1]["matrix"].as_array().unwrap();
     let expected = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 1., 3., -2., 1.];
-    assert!(matrix.iter().zip(expected).all(|(value, expected)| near(value, expected)), "{matrix:?}");
+    assert!(
+        matrix.iter().zip(expected).all(|(value, expected)| near(value, expected)),
+        "{matrix:?}"
+    );
     assert_eq!(file["nodes"][1]["camera"], 0);
 }
 
@@ -203,8 +216,9 @@ fn gltf_has_the_camera_of_the_scene() {
 fn vtk_files_have_what_is_known_of_the_light() {
     let text = converted(&obj(1.0, DVec3::new(1.0, 5.0, 2.0)), MeshFormat::Obj, Target::Ug, false);
     let seen = as_seen(&text, DVec3::new(0.6, 0.2, 0.0));
-    let file =
-        |scene: &[u8]| String::from_utf8(converted(scene, MeshFormat::Ug, Target::Vtp, false)).unwrap();
+    let file = |scene: &[u8]| {
+        String::from_utf8(converted(scene, MeshFormat::Ug, Target::Vtp, false)).unwrap()
+    };
     let arrays = |file: &str| -> Vec<String> {
         file.lines()
             .filter(|line| line.starts_with("<DataArray") && !line.contains("normals"))
@@ -225,7 +239,8 @@ fn vtk_files_have_what_is_known_of_the_light() {
 #[test]
 fn a_stage_in_the_scene_is_the_one_of_a_scene_without() {
     let mesh = obj(0.2, DVec3::ONE);
-    let [bare, staged] = [false, true].map(|stage| converted(&mesh, MeshFormat::Obj, Target::Ug, stage));
+    let [bare, staged] =
+        [false, true].map(|stage| converted(&mesh, MeshFormat::Obj, Target::Ug, stage));
     let lines = String::from_utf8(staged.clone()).unwrap();
     let count = |word: &str| lines.lines().filter(|line| line.starts_with(word)).count();
     assert_eq!((count("l "), count("cam ")), (2, 1), "{lines}");

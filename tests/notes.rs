@@ -12,8 +12,7 @@ f (e f j i) red; f (g h i j) red;
 l .35; l .65 -.4 -1 .6; cam -ep 1.5 -12 4 -vc 1.5 1 1.3 -va 32;
 ";
 
-const MIXED: &str =
-    "note: colours are mixed at 6 vertices where faces of different colours meet; -vr keeps them apart\n";
+const MIXED: &str = "note: colours are mixed at 6 vertices where faces of different colours meet; -vr keeps them apart\n";
 
 /// The error output of a pipe of these commands, which succeeds and writes a picture.
 #[track_caller]
@@ -69,7 +68,8 @@ fn a_picture_without_visible_wavelengths_says_so() {
         )
     };
     let check = |saturation: f64, speed: &str, expected: &str| {
-        let pipe = format!("uglorentz -in -vel {speed} 0 0 | ugdoppler | ugrainbow -sz 64 48 -aa 2");
+        let pipe =
+            format!("uglorentz -in -vel {speed} 0 0 | ugdoppler | ugrainbow -sz 64 48 -aa 2");
         let found = messages(&pipe, &scene(saturation));
         let remedy = "its wavelengths are outside 380-780 nm; give ugdoppler and \
                       ugrainbow -look light, or -look shape to see the shape";
@@ -91,7 +91,11 @@ fn red_green_and_blue_that_are_read_as_lightness_and_hue_are_noted_once() {
     let scene = HOUSE.replace("c red .9 0 .8", "c red 1 0 0");
     let pipe = "uglorentz -vel .1 0 0 -in -vr | ugdoppler -hd | ugrainbow -sz 64 48";
     let found = messages(pipe, &scene);
-    assert_eq!(found.matches("colour `red` is white, not red, green and blue").count(), 1, "{found}");
+    assert_eq!(
+        found.matches("colour `red` is white, not red, green and blue").count(),
+        1,
+        "{found}"
+    );
     assert!(found.contains("for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"), "{found}");
 }
 
@@ -105,7 +109,8 @@ fn a_lamp_in_a_closed_body_is_named() {
             format!("v {name} {} {} {};", at('x'), at('y'), at('z'))
         };
         let corners: String = ["o", "x", "xy", "y", "z", "xz", "xyz", "yz"].map(corner).concat();
-        let faces: String = faces.iter().map(|face| format!("f ({face}) {color} {motion};")).collect();
+        let faces: String =
+            faces.iter().map(|face| format!("f ({face}) {color} {motion};")).collect();
         format!("{corners} {faces}")
     };
     let closed = ["o y xy x", "z xz xyz yz", "o x xz z", "x xy xyz xz", "xy y yz xyz", "y o z yz"];
@@ -136,15 +141,19 @@ fn times_that_are_named_show_what_moves() {
     let mut n_notes = 0;
     let mut check = |scene: &str, has_time: bool| {
         shell.write("a.ug", format!("{ball} {scene}"));
-        let picture = |time: f64| format!("uglorentz -ti {time} a.ug | ugrainbow -sz 64 48 -aa 4 -fo a.png");
+        let picture =
+            |time: f64| format!("uglorentz -ti {time} a.ug | ugrainbow -sz 64 48 -aa 4 -fo a.png");
         for time in [0.0, 7.0] {
             let [_, messages] = shell.run(&picture(time));
-            let Some(note) = messages.split("nothing that moves is in the picture").nth(1) else { continue };
+            let Some(note) = messages.split("nothing that moves is in the picture").nth(1) else {
+                continue;
+            };
             n_notes += 1;
             let named = note.split("it is with -ti ").nth(1);
             assert_eq!(named.is_some(), has_time, "{scene}: {messages}");
             let words = named.unwrap_or_default().lines().next().unwrap_or_default();
-            let mut times: Vec<f64> = words.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
+            let mut times: Vec<f64> =
+                words.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
             if let [first, last, _] = times[..] {
                 times.extend([0.2, 0.4, 0.6, 0.8].map(|part| first + part * (last - first)));
             }

@@ -170,12 +170,16 @@ fn outline_errors_are_within_the_bound() {
                 ..uglorentz::Config::default()
             };
             let seen = uglorentz::apply(scene.clone(), &config).unwrap().0;
-            let row = |face: &ugscene::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
+            let row =
+                |face: &ugscene::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
             let origins: Vec<usize> = seen.faces.iter().map(row).collect();
             let errors = outline::errors(&seen, &origins, eye, &oracle);
             println!("{name} {bound}: {errors:?}");
             assert!(errors.n_edges >= scene.faces.len(), "{name}: {errors:?}");
-            assert!(errors.angle <= bound && errors.angle > bound / 10.0, "{name} {bound}: {errors:?}");
+            assert!(
+                errors.angle <= bound && errors.angle > bound / 10.0,
+                "{name} {bound}: {errors:?}"
+            );
         }
     }
 }

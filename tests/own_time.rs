@@ -50,7 +50,8 @@ fn options(eye: DVec3, time: f64) -> uglorentz::Config {
 /// What the first corners of the clocks show.
 fn readings(text: &str, config: &uglorentz::Config) -> Vec<f64> {
     let scene = parse(&pipe::lorentz(text.as_bytes(), config));
-    let first = scene.vertices.iter().filter(|vertex| scene.names.get(vertex.name).starts_with('p'));
+    let first =
+        scene.vertices.iter().filter(|vertex| scene.names.get(vertex.name).starts_with('p'));
     first.map(|vertex| shown(&scene, vertex.color.unwrap())).collect()
 }
 
@@ -81,16 +82,22 @@ const PLACES: [DVec3; 4] = [
 
 #[test]
 fn a_row_of_clocks_is_seen_as_the_lorentz_transformation_says() {
-    for (beta, camera, time) in [(0.8, 0.0, 0.0), (0.8, 0.0, 7.5), (0.0, -0.8, 4.0), (0.6, 0.9, -3.0)] {
+    for (beta, camera, time) in
+        [(0.8, 0.0, 0.0), (0.8, 0.0, 7.5), (0.0, -0.8, 4.0), (0.6, 0.9, -3.0)]
+    {
         let eye = DVec3::new(0.5, -2.0, 0.25);
-        let config = uglorentz::Config { camera_velocity: Some(DVec3::X * camera), ..options(eye, time) };
+        let config =
+            uglorentz::Config { camera_velocity: Some(DVec3::X * camera), ..options(eye, time) };
         let event = Lorentz::boost(speed(camera)).apply(Event { t: time, x: DVec3::ZERO });
         let event = event + Event { t: 0.0, x: eye };
         let found = readings(&clocks(&PLACES, &format!("<{beta} 0 0>")), &config);
         assert_eq!(found.len(), PLACES.len());
         for (found, place) in found.into_iter().zip(PLACES) {
             let expected = expected(place, speed(beta), event);
-            assert!((found - expected).abs() < 1e-9, "{beta} {camera} {time}: {found}, not {expected}");
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{beta} {camera} {time}: {found}, not {expected}"
+            );
         }
     }
 }
@@ -130,7 +137,8 @@ fn inertial_clocks_are_those_of_motions() {
     let moved = clocks(&PLACES, "<m>") + "motion m -vel .5 .3 -.2 -acc 1e-14 0 0;";
     let eye = DVec3::new(0.5, -2.0, 0.25);
     let point = Anchor::Point(DVec3::new(1.0, 2.0, 3.0));
-    for anchor in [None, Some(Anchor::Eye), Some(Anchor::Origin), Some(Anchor::Center), Some(point)] {
+    for anchor in [None, Some(Anchor::Eye), Some(Anchor::Origin), Some(Anchor::Center), Some(point)]
+    {
         for in_place in [false, true] {
             for camera in [DVec3::ZERO, DVec3::new(0.2, -0.7, 0.1)] {
                 let config = uglorentz::Config {
@@ -139,7 +147,9 @@ fn inertial_clocks_are_those_of_motions() {
                     camera_velocity: Some(camera),
                     ..options(eye, 2.5)
                 };
-                for (a, b) in readings(&inertial, &config).into_iter().zip(readings(&moved, &config)) {
+                for (a, b) in
+                    readings(&inertial, &config).into_iter().zip(readings(&moved, &config))
+                {
                     assert!((a - b).abs() < 1e-9, "{anchor:?} {in_place} {camera}: {a} {b}");
                 }
             }
@@ -154,7 +164,8 @@ fn lamps_light_with_the_colour_they_had() {
     let (surface, lamp, eye) =
         (DVec3::new(0.5, 4.0, 0.0), DVec3::new(1.0, -1.0, 2.0), DVec3::new(0.0, -2.0, 0.0));
     let shift = ColorShift::hues(true, Brightness::None);
-    let lit = ugdoppler::Config { light: true, tolerance: 0.0, keep: true, shift, ..Default::default() };
+    let lit =
+        ugdoppler::Config { light: true, tolerance: 0.0, keep: true, shift, ..Default::default() };
     for (of_surface, of_lamp) in [(0.0, 0.0), (0.5, 0.0), (0.5, 0.5), (-0.3, 0.6)] {
         for acceleration in ["", "-acc 1e-14 0 0"] {
             let [x, y, z] = surface.to_array();
@@ -194,7 +205,8 @@ fn a_short_flash_seen_a_day_later_keeps_its_rows() {
     let text = "c_rgb on 1 .9 .7; c_rgb off 0 0 0; c_time flash -step -period 60 0 on 1e-10 off;
          v a 0 0 0; v b 1 0 0; v c 0 0 1; f (a b c); l 1 0 -1 0 0 flash <0 0 0>; l 1 .5 -1 0 0 on <.1 0 0>;
          cam -ep 0 -12 3 -vc 0 0 0;";
-    let seen = pipe::lorentz(text.as_bytes(), &uglorentz::Config { time: DAY, ..Default::default() });
+    let seen =
+        pipe::lorentz(text.as_bytes(), &uglorentz::Config { time: DAY, ..Default::default() });
     let scene = parse(&seen);
     let table = scene.table_of(scene.lights[0].color.unwrap()).unwrap();
     assert_eq!(
@@ -208,7 +220,8 @@ fn a_short_flash_seen_a_day_later_keeps_its_rows() {
     }
     let [pipe, rays] = [Renderer::Pipe, Renderer::Rays].map(|by| {
         let motion = MotionOptions { time: DAY, ..MotionOptions::default() };
-        let picture = Picture { motion, ..Picture::of_scene(text.to_owned(), ColorShift::NONE).like_pipe() };
+        let picture =
+            Picture { motion, ..Picture::of_scene(text.to_owned(), ColorShift::NONE).like_pipe() };
         picture.by(by).draw().unwrap().light()
     });
     let n_off = pipe.iter().zip(&rays).filter(|(a, b)| (a[0] - b[0]).abs() > 4e-3).count();
@@ -238,8 +251,10 @@ fn many_colours_over_time_are_cut_as_each_alone() {
         let face = |k: usize| face(k).replace("-step -period 2 0 r", "0 r");
         let faces: String = (0..n).map(face).collect();
         let text = format!("c_rgb r 1 0 0; c_rgb z 0 0 0; cam -ep 0 -6 0 -vc 0 0 0;\n{faces}");
-        let scene =
-            parse(&pipe::lorentz(text.as_bytes(), &uglorentz::Config { time: -9.0, ..config.clone() }));
+        let scene = parse(&pipe::lorentz(
+            text.as_bytes(),
+            &uglorentz::Config { time: -9.0, ..config.clone() },
+        ));
         scene.faces.len()
     };
     // Before the first row nothing changes. It took minutes when every edge tested every table.
@@ -248,9 +263,12 @@ fn many_colours_over_time_are_cut_as_each_alone() {
 
 /// The light of the pipe, and that by rays.
 fn pictures(text: &str, shift: ColorShift) -> [Vec<[f32; 3]>; 2] {
-    let motion = MotionOptions { time: 6.0, anchor: Some(Anchor::Origin), ..MotionOptions::default() };
-    let picture = Picture { motion, size: [80, 60], ..Picture::of_scene(text.to_owned(), shift).like_pipe() };
-    [Renderer::Pipe, Renderer::Rays].map(|renderer| picture.clone().by(renderer).draw().unwrap().light())
+    let motion =
+        MotionOptions { time: 6.0, anchor: Some(Anchor::Origin), ..MotionOptions::default() };
+    let picture =
+        Picture { motion, size: [80, 60], ..Picture::of_scene(text.to_owned(), shift).like_pipe() };
+    [Renderer::Pipe, Renderer::Rays]
+        .map(|renderer| picture.clone().by(renderer).draw().unwrap().light())
 }
 
 /// The scene, with the statements of three colours.
@@ -322,7 +340,10 @@ fn legends_state_own_times() {
         match expected {
             Some(words) => {
                 let text = svg_text(&svg);
-                assert!(text.contains(words) && !text.contains(&format!("{words}.")), "{motion}: {text}");
+                assert!(
+                    text.contains(words) && !text.contains(&format!("{words}.")),
+                    "{motion}: {text}"
+                );
             }
             None => assert!(!svg.contains("τ"), "{motion}: {svg}"),
         }

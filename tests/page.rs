@@ -21,22 +21,37 @@ fn studio(shell: &Shell, names: &[&str]) -> Studio {
 
 /// Pipes with their output files, and the files that they read, the input first.
 const PIPES: [(&str, &[&str]); 12] = [
-    ("uglorentz -vel .9 0 0 -in house.ug | ugrainbow -look shape -vr -sz 64 48 -fo out.png", &["house.ug"]),
+    (
+        "uglorentz -vel .9 0 0 -in house.ug | ugrainbow -look shape -vr -sz 64 48 -fo out.png",
+        &["house.ug"],
+    ),
     (
         "uglorentz -vel .5 .1 0 -in -ti .5 ship.ug | ugdoppler -look light | ugrainbow -look light -lg -sz 300 200 -fo out.png",
         &["ship.ug"],
     ),
-    ("uglorentz -cv 0 .9 0 street.ug | ugdoppler | ugrainbow -sz 64 48 -fo out.jpg -dt png", &["street.ug"]),
+    (
+        "uglorentz -cv 0 .9 0 street.ug | ugdoppler | ugrainbow -sz 64 48 -fo out.jpg -dt png",
+        &["street.ug"],
+    ),
     (
         "uglorentz -in -ep 0 -20 8 -vc 0 0 1 dice.ug | ugrainbow -look shape -vec -sz 64 48 -dl -fo out.svg",
         &["dice.ug"],
     ),
-    ("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -look shape -sz 64 48 -fo out.png", &["globe.obj"]),
-    ("uglorentz -vel .9 0 0 -in -sd 1 house.ug | ugrainbow -xc -sp -sz 64 48 -fo out.pfm", &["house.ug"]),
+    (
+        "uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -look shape -sz 64 48 -fo out.png",
+        &["globe.obj"],
+    ),
+    (
+        "uglorentz -vel .9 0 0 -in -sd 1 house.ug | ugrainbow -xc -sp -sz 64 48 -fo out.pfm",
+        &["house.ug"],
+    ),
     ("uglorentz all.ug | ugdoppler | ugrainbow -iw -sz 64 48 -fo out.png", &["all.ug", "house.ug"]),
     ("ugrainbow house.ug -sz 64 48 -fo out.ppm", &["house.ug"]),
     ("ugphoton -in -look shape mirrors.ug -aa 1 -sz 64 48 -fo out.png", &["mirrors.ug"]),
-    ("ugphoton -pan -look light -vel .5 0 0 -in house.ug -aa 1 -sz 64 32 -fo out.svg", &["house.ug"]),
+    (
+        "ugphoton -pan -look light -vel .5 0 0 -in house.ug -aa 1 -sz 64 32 -fo out.svg",
+        &["house.ug"],
+    ),
     ("ugwarp -cv 0 .9 0 -look light -va 90 stars.csv -sz 64 48 -fo out.png", &["stars.csv"]),
     (
         "ugwarp -cv 0 .5 0 -vc 1 0 0 --stars stars.csv sky.png -sz 64 48 -fo out.png",
@@ -46,8 +61,15 @@ const PIPES: [(&str, &[&str]); 12] = [
 
 #[test]
 fn files_are_those_of_a_shell() {
-    let shell =
-        Shell::new(&["house.ug", "ship.ug", "street.ug", "dice.ug", "globe.obj", "mirrors.ug", "stars.csv"]);
+    let shell = Shell::new(&[
+        "house.ug",
+        "ship.ug",
+        "street.ug",
+        "dice.ug",
+        "globe.obj",
+        "mirrors.ug",
+        "stars.csv",
+    ]);
     shell.run("ugphoton -pan -sz 80 40 -aa 1 street.ug > sky.png");
     shell.write("all.ug", "include house.ug ;");
     for (line, names) in PIPES {
@@ -65,7 +87,8 @@ fn files_are_those_of_a_shell() {
 /// Keywords are the longest names of options; files and numbers as Python has them.
 #[test]
 fn lines_in_python_have_every_option() {
-    let check = |line: &str, expected: &str| assert_eq!(Studio::python(&commands(line)).unwrap(), expected);
+    let check =
+        |line: &str, expected: &str| assert_eq!(Studio::python(&commands(line)).unwrap(), expected);
     check(
         "uglorentz -vel .9 0 -1e-3 -in -lax a.ug | ugdoppler -look light | ugrainbow -look 1988 -sz 64 48 -cap { -fo b.png",
         "import uglorentz as ug\n\nscene = ug.Scene.read(\"a.ug\", lax=True)\n\
@@ -123,9 +146,14 @@ fn messages_are_those_of_the_programs() {
         assert!(message.contains(first), "{line}: {message}\n{printed}");
     }
     let missing = studio.draw(&commands("uglorentz missing.ug | ugrainbow")).err().unwrap();
-    assert_eq!(missing, "uglorentz: error: cannot read `missing.ug`: It is not among the given files");
+    assert_eq!(
+        missing,
+        "uglorentz: error: cannot read `missing.ug`: It is not among the given files"
+    );
     assert!(studio.draw("[]").is_err() && studio.draw("{").is_err());
-    assert!(studio.draw(&commands("ugmesh house.ug")).err().unwrap().contains("none of the programs"));
+    assert!(
+        studio.draw(&commands("ugmesh house.ug")).err().unwrap().contains("none of the programs")
+    );
     // Notes, too.
     let away = commands("uglorentz -vel .9 0 0 -ti 500 house.ug | ugrainbow -sz 40 30");
     let (note, [_, printed]) = (
@@ -143,10 +171,18 @@ fn descriptions_are_of_the_picture() {
     let mut studio = studio(&shell, &["globe.obj", "traffic.ug"]);
     let about = |text: String| serde_json::from_str::<serde_json::Value>(&text).unwrap();
     let globe = about(
-        studio.describe(&commands("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -sz 40 30")).unwrap(),
+        studio
+            .describe(&commands("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -sz 40 30"))
+            .unwrap(),
     );
     let point = |name: &str| {
-        globe[name].as_array().unwrap().iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+        globe[name]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join(" ")
     };
     let (eye, center) = (point("eye"), point("center"));
     shell.run("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -sz 40 30 > fitted.png");
@@ -175,7 +211,9 @@ fn broken_files_are_refused() {
         studio.add(name.to_owned(), bytes);
         let line = match name {
             "sky.png" | "stars.csv" => format!("ugwarp -cv 0 .5 0 {name} -sz 24 16"),
-            _ => format!("uglorentz -vel .5 0 0 -in --limit memory=100000000 {name} | ugrainbow -sz 24 16"),
+            _ => format!(
+                "uglorentz -vel .5 0 0 -in --limit memory=100000000 {name} | ugrainbow -sz 24 16"
+            ),
         };
         match studio.draw(&commands(&line)) {
             Ok(shown) => assert_eq!(shown.width(), 24),

@@ -40,13 +40,18 @@ const PIPES: [(&str, &str); 11] = [
 
 /// The output on an emulated processor, or on that of this machine.
 fn written(scene: &str, pipe: &str, programs: &Path, processor: Option<&str>) -> Vec<u8> {
-    let text = std::fs::File::open(scenes::root().join("scenes").join(format!("{scene}.ug"))).unwrap();
+    let text =
+        std::fs::File::open(scenes::root().join("scenes").join(format!("{scene}.ug"))).unwrap();
     let mut shell = Command::new("sh");
     shell.args(["-e", "-c", &format!("{FUNCTIONS}{pipe}"), "sh"]).arg(programs).stdin(text);
     shell.arg(processor.map(|name| format!("qemu-x86_64 -cpu {name}")).unwrap_or_default());
     let output = shell.output().unwrap();
     let messages = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && messages.is_empty(), "{scene}: {pipe}: {}: {messages}", output.status);
+    assert!(
+        output.status.success() && messages.is_empty(),
+        "{scene}: {pipe}: {}: {messages}",
+        output.status
+    );
     output.stdout
 }
 

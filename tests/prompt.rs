@@ -74,7 +74,8 @@ fn mistakes_are_answered() {
     let three = "`-vel` takes three values, not one: write `-vel X Y Z`";
     check("ugfilm -vel 0..0.9 -fo a_%04d.png ship.ug", three);
     for program in ["uglorentz", "ugphoton", "ugwarp", "ugfilm"] {
-        let expected = format!("{program}: error: `-cv` takes three values, not one: write `-cv X Y Z`");
+        let expected =
+            format!("{program}: error: `-cv` takes three values, not one: write `-cv X Y Z`");
         check(&format!("{program} -cv .9 -fo x.png ship.ug"), &expected);
     }
     check("uglorentz -ti -fo x.ug ship.ug", "`-ti` needs a value: `-ti T`");
@@ -90,7 +91,10 @@ fn mistakes_are_answered() {
     check("uglorentz -vel 0.9, 0, 0 ship.ug", separated);
     check("uglorentz -ti 0..5 ship.ug", "only ugfilm draws numbers that change over time");
     check("uglorentz -ti 0 .. 5 ship.ug", "only ugfilm draws numbers that change over time");
-    check("ugfilm -ti 0...1 -fo a_%d.png ship.ug", "`-ti`: `0...1` has three dots: write `0..1` or `0..0.1`");
+    check(
+        "ugfilm -ti 0...1 -fo a_%d.png ship.ug",
+        "`-ti`: `0...1` has three dots: write `0..1` or `0..0.1`",
+    );
     check(
         "ugrainbow -bg mauve ship.ug",
         "write lightness, hue in degrees and saturation, a name such as white, or #rrggbb",
@@ -105,7 +109,10 @@ fn mistakes_are_answered() {
     check("uglorentz -vel.9 0 0 ship.ug", blank);
     check("ugwarp -stereo photo.jpg", "`-stereo` is an option of ugphoton, not of ugwarp");
     check("ugwarp --stereo photo.jpg", "`--stereo` is an option of ugphoton, not of ugwarp");
-    check("ugwarp -keep-in-view photo.jpg", "`-keep-in-view` is an option of uglorentz, not of ugwarp");
+    check(
+        "ugwarp -keep-in-view photo.jpg",
+        "`-keep-in-view` is an option of uglorentz, not of ugwarp",
+    );
     let shift = "is an option of ugdoppler, not of ugrainbow; here it needs `-xc`";
     check("ugrainbow --no-doppler ship.ug", &format!("`--no-doppler` {shift}"));
     check("ugrainbow -no-flux ship.ug", &format!("`-no-flux` {shift}"));
@@ -159,7 +166,10 @@ fn mistakes_are_answered() {
     check("ugsheet --history -cols 2 a.png", both);
 
     // Files.
-    check("ugrainbow photo.jpg", "help: `ugwarp photo.jpg` shows it as the sky around an observer in motion");
+    check(
+        "ugrainbow photo.jpg",
+        "help: `ugwarp photo.jpg` shows it as the sky around an observer in motion",
+    );
     let film = "`photo.jpg` is not a scene but a picture; with -warp, ugfilm shows it as the sky around an observer \
                 in motion, as `ugwarp photo.jpg` does in one picture";
     check("ugfilm -ti 0..1 -fo a_%d.png photo.jpg", film);
@@ -167,7 +177,10 @@ fn mistakes_are_answered() {
     check("ugfilm -ti 0..1 -fo a_%d.png stars.csv", film);
     check("ugrainbow ship.fbx", "not a UniGrafix scene but a model in a format that is not read");
     check("ugphoton ship.dae", "help: export it as glTF, OBJ or PLY, which are read");
-    check("ugmesh ship.fbx", "`ship.fbx` is not a mesh but a model in a format that is not read; export it");
+    check(
+        "ugmesh ship.fbx",
+        "`ship.fbx` is not a mesh but a model in a format that is not read; export it",
+    );
     check("ugrainbow stars.csv", "help: `ugwarp stars.csv` draws a list of stars");
     check("ugwarp ship.ug", "scenes are drawn by ugrainbow, and by ugphoton");
     check("ugwarp photo.jpg stars.csv", "a list of stars is added with --stars FILE");
@@ -179,7 +192,10 @@ fn mistakes_are_answered() {
     check("ugrainbow slashes.ug", "help: comments are in braces: `{ like this }`");
     check("ugrainbow capital.ug", "help: keywords are lower case: `f`");
     check("ugrainbow broken.obj", "--> broken.obj:3:1");
-    check("ugmesh -fo x.stl ship.ug", "`x.stl` is none of the formats ug, obj, ply, gltf, glb and vtp");
+    check(
+        "ugmesh -fo x.stl ship.ug",
+        "`x.stl` is none of the formats ug, obj, ply, gltf, glb and vtp",
+    );
     check("ugparse example dragon", "dragon");
     for program in ["ugrainbow -fo", "ugphoton -fo", "ugfilm -ti 0..1 -ex auto -fo"] {
         check(&format!("{program} none/x_%d.png no-such.ug"), "there is no folder `none`");
@@ -249,7 +265,8 @@ fn nothing_is_black_in_silence() {
         film,
         "nothing will be in the picture in 2 of 2 frames, 1..2: what moves is in it with -ti from 4 to",
     );
-    let enclosed = "the light of lamp `bulb` does not leave the closed body that it is in: move it out";
+    let enclosed =
+        "the light of lamp `bulb` does not leave the closed body that it is in: move it out";
     check("ugphoton -sz 40 30 -fo x.png boxed.ug", enclosed);
 }
 
@@ -289,11 +306,13 @@ fn what_a_photograph_does_not_hold_is_chosen_or_noted() {
     assert!(at(&pixels, 48)[..3].iter().all(|&level| level > 60), "{:?}", at(&pixels, 48));
     let (messages, pixels) = shown("--basis 3500 5900 10000");
     // The meadow is the lower half.
-    let note =
-        "ugwarp: note: the three temperatures of the basis add up to negative light, drawn as black, in ";
+    let note = "ugwarp: note: the three temperatures of the basis add up to negative light, drawn as black, in ";
     let percent = messages.split_once(note).unwrap().1.split_once(' ').unwrap().0;
     assert!((percent.parse::<f64>().unwrap() - 50.0).abs() < 1.0, "{messages}");
-    assert!(messages.contains(" percent of what is in the picture; --basis mixture has none"), "{messages}");
+    assert!(
+        messages.contains(" percent of what is in the picture; --basis mixture has none"),
+        "{messages}"
+    );
     assert_eq!(at(&pixels, 48), [0, 0, 0, 255]);
     // At rest every colour is kept.
     let (messages, _) = shown("--basis 3500 5900 10000 --no-doppler --no-flux");
@@ -325,7 +344,11 @@ fn meshes_are_read_in_place_of_scenes() {
     };
     for name in ["a.obj", "a.ply", "a.glb", "a.gltf"] {
         let (converted, _) = run(&format!("ugmesh {name}"));
-        assert_eq!(statements(run(&format!("ugparse flatten {name}")).0), statements(converted), "{name}");
+        assert_eq!(
+            statements(run(&format!("ugparse flatten {name}")).0),
+            statements(converted),
+            "{name}"
+        );
         let motion = "-qt -vel .5 0 0 --keep-in-view";
         let (direct, _) = run(&format!("uglorentz {motion} {name}"));
         let (piped, _) = run(&format!("ugmesh -qt {name} | uglorentz {motion}"));
@@ -344,7 +367,10 @@ fn meshes_are_read_in_place_of_scenes() {
     let (scene, messages) = run("ugparse flatten a.obj");
     let scene = String::from_utf8(scene).unwrap();
     assert!(scene.contains("c_rgb red 1 0 0;\nc_rgb tiled 0 0 0.7353"), "{scene}");
-    assert!(scene.contains("c_tex tiled \"tiles.png\";") && messages.is_empty(), "{scene} {messages}");
+    assert!(
+        scene.contains("c_tex tiled \"tiles.png\";") && messages.is_empty(),
+        "{scene} {messages}"
+    );
     std::fs::remove_file(shell.path("tiles.png")).unwrap();
     let (scene, messages) = run("ugparse flatten a.obj");
     assert!(String::from_utf8(scene).unwrap().contains("c_rgb tiled 1 1 1;"));
@@ -360,7 +386,8 @@ fn textures_are_drawn_alike() {
     shell.run("ugmesh crate.gltf -fo crate.ug");
     let scene = String::from_utf8(std::fs::read(shell.path("crate.ug")).unwrap()).unwrap();
     assert!(scene.contains("c_tex wood \"crate_texture1.png\" -wrap clamp;"), "{scene}");
-    let spinning = scene.replace(") wood;", ") wood <turn>;") + "motion turn -acc .05 0 0 -spin 0 .2 .1;";
+    let spinning =
+        scene.replace(") wood;", ") wood <turn>;") + "motion turn -acc .05 0 0 -spin 0 .2 .1;";
     shell.write("spinning.ug", spinning.as_bytes());
     let view = "-ep 4 -6 3 -vc 0 0 0 -va 30 -sz 60 45 -ex 1";
     let pixels = |name: &str| shell.pixels(name);
@@ -384,7 +411,11 @@ fn textures_are_drawn_alike() {
             shell.run(&format!(
                 "uglorentz -qt {motion} -ep 4 -6 3 {name} | ugrainbow -qt -xc -look {look} {view} > exact.png"
             ));
-            assert!(decibels("exact.png") > 45.0, "{name} {motion} {look}: {} dB", decibels("exact.png"));
+            assert!(
+                decibels("exact.png") > 45.0,
+                "{name} {motion} {look}: {} dB",
+                decibels("exact.png")
+            );
             let rays = pixels("rays.png");
             let n_colours = rays.iter().collect::<std::collections::BTreeSet<_>>().len();
             assert!(n_colours > 100, "{name} {motion} {look}: {n_colours} colours");
@@ -394,10 +425,19 @@ fn textures_are_drawn_alike() {
     shell.run(&format!("ugphoton -qt -look shape {view} crate.ug > rays.png"));
     shell.run(&format!("ugrainbow -qt {view} crate.ug > plain.png"));
     assert!(decibels("plain.png") > 45.0);
-    let note = "textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them";
+    let note =
+        "textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them";
     check(&shell, "ugrainbow -cb crate.ug", note);
-    check(&shell, "ugrainbow --explain 30,20 -sz 60 45 crate.ug", "faces with textures are drawn by rays");
-    check(&shell, "uglorentz -vel .5 0 0 crate.ug | ugdoppler -ir", "plain colour; leave out -vel, -gw, -ir");
+    check(
+        &shell,
+        "ugrainbow --explain 30,20 -sz 60 45 crate.ug",
+        "faces with textures are drawn by rays",
+    );
+    check(
+        &shell,
+        "uglorentz -vel .5 0 0 crate.ug | ugdoppler -ir",
+        "plain colour; leave out -vel, -gw, -ir",
+    );
     // ugdoppler leaves textures to rays, which draw as without it.
     let moved = "uglorentz -vel .5 0 0 -in -ep 4 -6 3 crate.ug";
     for shift in ["", "-sp", "-sp --infrared-rule constant --no-flux", "-br photon"] {
@@ -405,7 +445,9 @@ fn textures_are_drawn_alike() {
         shell.run(&format!("{moved} | ugrainbow -qt -xc {shift} {view} > exact.png"));
         assert!(pixels("pipe.png") == pixels("exact.png"), "{shift}");
     }
-    for (picture, remedy) in [("ugrainbow -cb", "--no-textures"), ("ugmesh -dt ply", "--no-textures")] {
+    for (picture, remedy) in
+        [("ugrainbow -cb", "--no-textures"), ("ugmesh -dt ply", "--no-textures")]
+    {
         let output = shell.output(&format!("{moved} | ugdoppler -qt | {picture}"));
         assert!(!output.status.success());
         assert!(String::from_utf8_lossy(&output.stderr).contains(remedy));
@@ -438,8 +480,8 @@ fn textures_are_drawn_alike() {
 fn blanks_in_values_over_time() {
     let shell = prepared();
     let printed = |options: &str| {
-        let [commands, _] =
-            shell.run(&format!("ugfilm -qt -frames 3 {options} -sz 40 30 --print -fo f_%d.png ship.ug"));
+        let [commands, _] = shell
+            .run(&format!("ugfilm -qt -frames 3 {options} -sz 40 30 --print -fo f_%d.png ship.ug"));
         commands
     };
     for (with_blanks, without) in [

@@ -139,17 +139,21 @@ impl Definition {
 
     fn text(&self) -> String {
         let color = |color: Option<usize>| color.map_or_else(String::new, |row| format!("k{row}"));
-        let tail = |beta: Option<f64>| beta.map_or_else(String::new, |beta| format!("<{beta} 0 0>"));
+        let tail =
+            |beta: Option<f64>| beta.map_or_else(String::new, |beta| format!("<{beta} 0 0>"));
         let mut text = String::new();
         for (name, p) in ["a", "b", "c"].iter().zip(self.corners) {
             writeln!(text, "v {name} {} {} {};", p.x, p.y, p.z).unwrap();
         }
         writeln!(text, "f (a b c) {} {};", color(self.color), tail(self.velocity)).unwrap();
         for placed in &self.placed {
-            let inside = format!("d{} {} {}", placed.definition, color(placed.color), placed.first.0);
+            let inside =
+                format!("d{} {} {}", placed.definition, color(placed.color), placed.first.0);
             let tail = tail(placed.velocity);
             match &placed.array {
-                Some((size, step)) => writeln!(text, "a ({inside}) {size} {} {tail};", step.0).unwrap(),
+                Some((size, step)) => {
+                    writeln!(text, "a ({inside}) {size} {} {tail};", step.0).unwrap()
+                }
                 None => writeln!(text, "i ({inside}) {tail};").unwrap(),
             }
         }
@@ -166,7 +170,8 @@ impl Definition {
         let velocity = moving.w_axis.truncate() / moving.w_axis.w;
         faces.push(Expected { corners, color: self.color.or(place.color), velocity });
         for placed in &self.placed {
-            let (size, step) = placed.array.as_ref().map_or((1, None), |(size, step)| (*size, Some(step)));
+            let (size, step) =
+                placed.array.as_ref().map_or((1, None), |(size, step)| (*size, Some(step)));
             let (_, mut matrix, mut is_mirror) = placed.first.clone();
             for _ in 0..size {
                 let inner = Place {
@@ -187,8 +192,10 @@ impl Definition {
 #[track_caller]
 fn check(scene: &Scene, expected: &[Expected], text: &str) {
     assert_eq!(scene.faces.len(), expected.len(), "{text}");
-    let size =
-        expected.iter().flat_map(|face| face.corners).fold(1.0, |size, p| p.abs().max_element().max(size));
+    let size = expected
+        .iter()
+        .flat_map(|face| face.corners)
+        .fold(1.0, |size, p| p.abs().max_element().max(size));
     for (face, expected) in scene.faces.iter().zip(expected) {
         let contour = scene.face_contours(face).next().unwrap();
         for (corner, expected) in contour.iter().zip(expected.corners) {
@@ -216,8 +223,12 @@ fn instances_are_where_their_matrices_say() {
         }
         text += &scene.text();
         let mut expected = Vec::new();
-        let place =
-            Place { matrix: DMat4::IDENTITY, is_mirrored: false, color: None, frame: DMat4::IDENTITY };
+        let place = Place {
+            matrix: DMat4::IDENTITY,
+            is_mirrored: false,
+            color: None,
+            frame: DMat4::IDENTITY,
+        };
         scene.expand(&all, &place, &mut expected);
         check(&scenes::parse(text.as_bytes()), &expected, &text);
         n_faces += expected.len();

@@ -174,7 +174,8 @@ fn shadows_are_those_of_round_faces() {
             return None;
         }
         let from = |x: f64, y: f64| DVec3::new(place.x - x, place.y - y, 0.0).length();
-        let [sphere, tube, cylinder] = [from(-2.0, 3.0) - 0.7, from(1.5, 0.0) - 0.8, from(0.0, -1.0) - 0.5];
+        let [sphere, tube, cylinder] =
+            [from(-2.0, 3.0) - 0.7, from(1.5, 0.0) - 0.8, from(0.0, -1.0) - 0.5];
         if tube.abs() < 1e-3 {
             return None;
         }
@@ -199,7 +200,8 @@ fn polygons_agree_with_exact_shapes() {
             "c red .9 0 .8; c blue .8 240 .7; c green .7 120 .6; {shapes} i (d {place}) <{velocity}>; l .3; l .7 1 -2 2;"
         );
         let drawn = |renderer| {
-            let picture = Picture::of_scene(text.clone() + &camera(), UNSHIFTED).like_pipe().by(renderer);
+            let picture =
+                Picture::of_scene(text.clone() + &camera(), UNSHIFTED).like_pipe().by(renderer);
             let motion = MotionOptions { in_place: true, ..MotionOptions::default() };
             Picture { size: SIZE, samples: 4, motion, ..picture }
                 .draw()
@@ -211,9 +213,10 @@ fn polygons_agree_with_exact_shapes() {
         assert!(is_drawn > 300, "{place}: {is_drawn}");
         for (renderer, least) in [(Renderer::Exact, 60.0), (Renderer::Pipe, 45.0)] {
             let pairs = rays.iter().zip(drawn(renderer));
-            let differences = pairs.flat_map(|(a, b)| (0..3).map(move |at| f64::from(a[at] - b[at])));
-            let mean =
-                differences.map(|difference| difference * difference).sum::<f64>() / (3 * rays.len()) as f64;
+            let differences =
+                pairs.flat_map(|(a, b)| (0..3).map(move |at| f64::from(a[at] - b[at])));
+            let mean = differences.map(|difference| difference * difference).sum::<f64>()
+                / (3 * rays.len()) as f64;
             let decibels = -10.0 * libm::log10(mean);
             assert!(decibels > least, "{renderer:?}, {place}, {velocity}: {decibels:.1} dB");
         }

@@ -13,10 +13,17 @@ use ugwarp::{Extent, Panorama, Star, Texels};
 fn panorama() -> Opened {
     let texel = |idx: u32| {
         let [x, y] = [idx % 256, idx / 256].map(f64::from);
-        let wave = |at: f64, phase: f64| 0.5 + 0.4 * libm::cos(at * core::f64::consts::TAU / 256.0 + phase);
+        let wave = |at: f64, phase: f64| {
+            0.5 + 0.4 * libm::cos(at * core::f64::consts::TAU / 256.0 + phase)
+        };
         let down = libm::sin(y * core::f64::consts::PI / 128.0);
-        [wave(2.0 * x, 0.0) * down, wave(4.0 * y + x, 2.0) * down, wave(2.0 * (x - y), 4.0) * down, 1.0]
-            .map(|part| part as f32)
+        [
+            wave(2.0 * x, 0.0) * down,
+            wave(4.0 * y + x, 2.0) * down,
+            wave(2.0 * (x - y), 4.0) * down,
+            1.0,
+        ]
+        .map(|part| part as f32)
     };
     let texels = Texels::Light((0..256 * 128).map(texel).collect());
     let panorama = Some(Panorama::new([256, 128], texels, Extent::FULL).unwrap());
@@ -30,7 +37,11 @@ fn stars() -> Opened {
         let (z, turn) = (2.0 * part(0.618_034) - 1.0, core::f64::consts::TAU * part(0.754_878));
         let level = libm::sqrt(1.0 - z * z);
         let direction = DVec3::new(level * libm::sin(turn), level * libm::cos(turn), z);
-        Star { direction, magnitude: -2.0 + 4.0 * part(0.569_84), kelvin: 3000.0 + 9000.0 * part(0.324_7) }
+        Star {
+            direction,
+            magnitude: -2.0 + 4.0 * part(0.569_84),
+            kelvin: 3000.0 + 9000.0 * part(0.324_7),
+        }
     };
     Opened { stars: (0..3000).map(star).collect(), ..Opened::default() }
 }
@@ -40,8 +51,7 @@ fn parsed(text: &str) -> Scene {
 }
 
 /// A triangle too far behind the eye to be met, which looks along +y.
-const BEHIND: &str =
-    "v a 0 -9e9 0; v b 1 -9e9 0; v c 0 -9e9 1; f (a b c); cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
+const BEHIND: &str = "v a 0 -9e9 0; v b 1 -9e9 0; v c 0 -9e9 1; f (a b c); cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
 
 fn picture(lens: Lens) -> PictureOptions {
     let size = match lens {
@@ -54,21 +64,32 @@ fn picture(lens: Lens) -> PictureOptions {
 
 fn by_rays(text: &str, sky: &SceneSky, beta: DVec3, shift: ColorShift, lens: Lens) -> LinearFrame {
     let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
-    let config = ugphoton::Config { motion, shift, lens, picture: picture(lens), ..Default::default() };
+    let config =
+        ugphoton::Config { motion, shift, lens, picture: picture(lens), ..Default::default() };
     ugphoton::light(parsed(text), &ugphoton::Config { sky: sky.clone(), ..config }).unwrap()
 }
 
 fn by_pipe(text: &str, sky: &SceneSky, beta: DVec3, shift: ColorShift) -> LinearFrame {
     let lorentz = uglorentz::Config { camera_velocity: Some(beta), ..Default::default() };
     let seen = uglorentz::apply(parsed(text), &lorentz).unwrap().0;
-    let colored = ugdoppler::apply(seen, &ugdoppler::Config { shift, ..Default::default() }).unwrap().0;
-    let config =
-        ugrainbow::Config { picture: picture(Lens::Pinhole), sky: sky.clone(), ..Default::default() };
+    let colored =
+        ugdoppler::apply(seen, &ugdoppler::Config { shift, ..Default::default() }).unwrap().0;
+    let config = ugrainbow::Config {
+        picture: picture(Lens::Pinhole),
+        sky: sky.clone(),
+        ..Default::default()
+    };
     ugrainbow::light(&colored, &config).unwrap()
 }
 
 /// The sky alone. `center`: where the camera looks.
-fn warped(sky: &SceneSky, beta: DVec3, shift: ColorShift, lens: Lens, center: DVec3) -> LinearFrame {
+fn warped(
+    sky: &SceneSky,
+    beta: DVec3,
+    shift: ColorShift,
+    lens: Lens,
+    center: DVec3,
+) -> LinearFrame {
     let SkySource::Opened(opened) = &sky.source else { panic!("a sky") };
     let camera = CameraOptions {
         center: Some(center),
@@ -91,7 +112,8 @@ fn psnr(one: &LinearFrame, other: &LinearFrame) -> f64 {
     let (one, other) = (channels(one), channels(other));
     let peak = one.iter().copied().fold(0.0, f64::max);
     let shown = |light: f64| srgb_encode((light / peak).clamp(0.0, 1.0));
-    let square = |(one, other): (&f64, &f64)| (shown(*one) - shown(*other)) * (shown(*one) - shown(*other));
+    let square =
+        |(one, other): (&f64, &f64)| (shown(*one) - shown(*other)) * (shown(*one) - shown(*other));
     let sum: f64 = one.iter().zip(&other).map(square).sum();
     -10.0 * libm::log10(sum / one.len() as f64)
 }
@@ -106,7 +128,9 @@ fn a_sky_alone_is_the_same_in_all_programs() {
         let sky = SceneSky::from(opened());
         for beta in [DVec3::ZERO, DVec3::Y * 0.9, DVec3::new(0.5, -0.4, 0.3)] {
             for shift in SHIFTS {
-                for lens in [Lens::Pinhole, Lens::Panorama, Lens::Cube, Lens::Fisheye { angle: 3.0 }] {
+                for lens in
+                    [Lens::Pinhole, Lens::Panorama, Lens::Cube, Lens::Fisheye { angle: 3.0 }]
+                {
                     let expected = warped(&sky, beta, shift, lens, DVec3::Y);
                     let found = psnr(&expected, &by_rays(BEHIND, &sky, beta, shift, lens));
                     assert!(found > 60.0, "{beta} {shift:?} {lens:?}: {found} dB");
@@ -129,7 +153,8 @@ fn a_turned_sky_is_that_of_a_turned_camera() {
         let beta = DVec3::new(0.3, 0.6, 0.0);
         let found = by_rays(BEHIND, &sky, beta, ColorShift::SPECTRA, Lens::Pinhole);
         let back = turn.inverse();
-        let expected = warped(&sky, back * beta, ColorShift::SPECTRA, Lens::Pinhole, back * DVec3::Y);
+        let expected =
+            warped(&sky, back * beta, ColorShift::SPECTRA, Lens::Pinhole, back * DVec3::Y);
         assert!(psnr(&expected, &found) > 60.0, "{}", psnr(&expected, &found));
     }
 }
@@ -192,8 +217,10 @@ fn a_scene_covers_its_sky_by_parts() {
     let shift = ColorShift::NONE;
     let alone = warped(&sky, DVec3::ZERO, shift, Lens::Pinhole, DVec3::Y);
     let dark = by_rays(scene, &SceneSky::default(), DVec3::ZERO, shift, Lens::Pinhole);
-    let found =
-        [by_rays(scene, &sky, DVec3::ZERO, shift, Lens::Pinhole), by_pipe(scene, &sky, DVec3::ZERO, shift)];
+    let found = [
+        by_rays(scene, &sky, DVec3::ZERO, shift, Lens::Pinhole),
+        by_pipe(scene, &sky, DVec3::ZERO, shift),
+    ];
     for frame in found {
         for ((sky, dark), pixel) in alone.pixels().iter().zip(dark.pixels()).zip(frame.pixels()) {
             for channel in 0..3 {
@@ -213,11 +240,15 @@ fn parts_of_a_picture_have_their_part_of_the_sky() {
         let whole = light(&ugphoton::Config { picture: picture(Lens::Pinhole), ..config.clone() });
         let [left, top, width, height] = [40, 30, 20, 11];
         let crop = Some([left, top, width, height]);
-        let part = light(&ugphoton::Config { picture: picture(Lens::Pinhole), crop, ..config.clone() });
+        let part =
+            light(&ugphoton::Config { picture: picture(Lens::Pinhole), crop, ..config.clone() });
         for (idx, pixel) in part.pixels().iter().enumerate() {
             let [x, y] = [left + idx as u32 % width, top + idx as u32 / width];
             let expected = whole.pixels()[(y * whole.width() + x) as usize];
-            assert!((0..3).all(|i| (pixel[i] - expected[i]).abs() < 1e-5), "{pixel:?} {expected:?}");
+            assert!(
+                (0..3).all(|i| (pixel[i] - expected[i]).abs() < 1e-5),
+                "{pixel:?} {expected:?}"
+            );
         }
         let size = [2 * whole.width(), whole.height()];
         let two = PictureOptions { size, ..picture(Lens::Pinhole) };
@@ -253,7 +284,8 @@ fn lit_square(normal: DVec3, beta: f64, level: f32, shift: ColorShift, samples: 
         up.y,
         up.z
     );
-    let motion = MotionOptions { camera_velocity: Some(DVec3::Y * beta), ..MotionOptions::default() };
+    let motion =
+        MotionOptions { camera_velocity: Some(DVec3::Y * beta), ..MotionOptions::default() };
     let picture = PictureOptions { size: [1, 1], samples, ..PictureOptions::default() };
     let config = ugphoton::Config { motion, shift, picture, sky, ..Default::default() };
     f64::from(ugphoton::light(parsed(&text), &config).unwrap().pixels()[0][1])
@@ -270,7 +302,8 @@ fn mean_of_beamed_light(normal: DVec3, beta: f64) -> f64 {
         // Equal parts of the square of the sine: equal weights.
         let square = (row as f64 + 0.5) / N as f64;
         for column in 0..N {
-            let (sin, cos) = libm::sincos(core::f64::consts::TAU * (column as f64 + 0.5) / N as f64);
+            let (sin, cos) =
+                libm::sincos(core::f64::consts::TAU * (column as f64 + 0.5) / N as f64);
             let aside = cos * across + sin * normal.cross(across);
             let toward = libm::sqrt(1.0 - square) * normal + libm::sqrt(square) * aside;
             sum += libm::pow(gamma * (1.0 - beta * toward.y), -4.0);
@@ -295,7 +328,10 @@ fn a_uniform_sky_lights_as_theory_says() {
             assert!((found / expected - 1.0).abs() < most, "{normal} {beta}: {found} {expected}");
             // With fewer samples it is nearly the same.
             let few = lit_square(normal, beta, 0.01, law, 4);
-            assert!((few / expected - 1.0).abs() < most.sqrt() + 0.05, "{normal} {beta}: {few} {expected}");
+            assert!(
+                (few / expected - 1.0).abs() < most.sqrt() + 0.05,
+                "{normal} {beta}: {few} {expected}"
+            );
         }
     }
 }
@@ -304,7 +340,8 @@ fn a_uniform_sky_lights_as_theory_says() {
 /// the scene states.
 #[test]
 fn the_pipe_lights_a_scene_as_rays_do() {
-    let text = "c_rgb wall .5 .3 .25; v a -9 3 -9; v b 9 3 -9; v c 9 3 9; v d -9 3 9; f (a b c d) wall;
+    let text =
+        "c_rgb wall .5 .3 .25; v a -9 3 -9; v b 9 3 -9; v c 9 3 9; v d -9 3 9; f (a b c d) wall;
         v e -9 2 -3; v f 9 2 -3; v g 9 5 -2; v h -9 5 -2; f (e f g h);
         cam -ep 0 0 0 -vc 0 3 -1 -ud 0 0 1 -va 60;";
     let sky = SceneSky::from(BuiltIn::Day.open());
@@ -326,12 +363,15 @@ fn the_pipe_lights_a_scene_as_rays_do() {
                 let scene = parsed(text);
                 let mut sky = sky;
                 sky.or_stated(scene.sky.as_ref());
-                let lorentz = uglorentz::Config { camera_velocity: Some(beta), ..Default::default() };
+                let lorentz =
+                    uglorentz::Config { camera_velocity: Some(beta), ..Default::default() };
                 let (scene, _) = uglorentz::apply(scene, &lorentz).unwrap();
-                let doppler = ugdoppler::Config { light: true, shift, sky, keep: true, ..Default::default() };
+                let doppler =
+                    ugdoppler::Config { light: true, shift, sky, keep: true, ..Default::default() };
                 let (scene, notes) = ugdoppler::apply(scene, &doppler).unwrap();
                 assert!(!notes.contains(&ugdoppler::Note::NoLights), "{notes:?}");
-                let config = ugrainbow::Config { picture: config.picture.clone(), ..Default::default() };
+                let config =
+                    ugrainbow::Config { picture: config.picture.clone(), ..Default::default() };
                 let found = ugrainbow::light(&scene, &config).unwrap();
                 let mean = |frame: &LinearFrame| {
                     frame
@@ -343,7 +383,10 @@ fn the_pipe_lights_a_scene_as_rays_do() {
                 let (found, expected) = (mean(&found), mean(&expected));
                 // Display-encoded light adds up otherwise in sets of points.
                 let bound = if shift.is_spectral() { 0.03 } else { 0.06 };
-                assert!((found / expected - 1.0).abs().max_element() < bound, "{beta}: {found} {expected}");
+                assert!(
+                    (found / expected - 1.0).abs().max_element() < bound,
+                    "{beta}: {found} {expected}"
+                );
             }
         }
     }
@@ -373,7 +416,9 @@ fn skies_without_a_file_light_a_level_surface_white() {
     assert!(stars.len() == 5042 && panorama.is_none());
     // Sirius, in the axes of a panorama.
     let brightest = stars.iter().min_by(|a, b| a.magnitude.total_cmp(&b.magnitude)).unwrap();
-    assert!((brightest.magnitude + 1.44).abs() < 0.05 && (brightest.direction.z + 0.287).abs() < 0.01);
+    assert!(
+        (brightest.magnitude + 1.44).abs() < 0.05 && (brightest.direction.z + 0.287).abs() < 0.01
+    );
 }
 
 /// A sky and the lamps of a scene add up, with and without spectra; the option leaves the lamps.
@@ -388,13 +433,17 @@ fn a_sky_and_lamps_light_a_scene_together() {
             let sky = sky.map_or_else(SceneSky::default, |sky| sky.open().into());
             let mut config = ugphoton::Config { picture, shift, sky, ..Default::default() };
             config.rays.sky_light = sky_light;
-            let pixel = ugphoton::light(parsed(&format!("{square}{lamp}")), &config).unwrap().pixels()[0];
+            let pixel =
+                ugphoton::light(parsed(&format!("{square}{lamp}")), &config).unwrap().pixels()[0];
             [pixel[0], pixel[1], pixel[2]].map(f64::from)
         };
         let dusk = Some(BuiltIn::Dusk);
         let [of_lamp, of_sky, both] =
             [light(lamp, None, true), light("", dusk, true), light(lamp, dusk, true)];
-        assert!((0..3).all(|c| (of_lamp[c] + of_sky[c] - both[c]).abs() < 1e-3 * both[c]), "{both:?}");
+        assert!(
+            (0..3).all(|c| (of_lamp[c] + of_sky[c] - both[c]).abs() < 1e-3 * both[c]),
+            "{both:?}"
+        );
         assert_eq!(light(lamp, dusk, false), of_lamp);
         assert_eq!(light("", dusk, false), light("", None, true));
     }
@@ -416,11 +465,18 @@ fn spectra_of_a_sky_are_tabulated_and_mixed_without_loss() {
         };
         let picture = PictureOptions { size: [2, 2], samples: 4, ..PictureOptions::default() };
         let sky = BuiltIn::Dusk.open().into();
-        let config =
-            ugphoton::Config { motion, picture, shift: ColorShift::SPECTRA, sky, ..Default::default() };
+        let config = ugphoton::Config {
+            motion,
+            picture,
+            shift: ColorShift::SPECTRA,
+            sky,
+            ..Default::default()
+        };
         ugphoton::light(parsed(&text), &config).unwrap()
     };
-    for [many, moved, of_camera] in [[1.0, 0.0, 0.5], [1.0, 0.0, -0.6], [0.0, 1e-5, 0.0], [0.0, 1e-5, 0.4]] {
+    for [many, moved, of_camera] in
+        [[1.0, 0.0, 0.5], [1.0, 0.0, -0.6], [0.0, 1e-5, 0.0], [0.0, 1e-5, 0.4]]
+    {
         let one = light("", 0.0, of_camera);
         let other = light(if many > 0.0 { &colors } else { "" }, moved, of_camera);
         for (one, other) in one.pixels().iter().zip(other.pixels()) {
@@ -501,7 +557,8 @@ fn wrong_statements_of_skies_are_refused() {
         ("sky day -rx 3;", "expected `-ra` or `;`"),
         ("sky day -ra 3;", "a number"),
     ] {
-        let found = ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default());
+        let found =
+            ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default());
         let message = found.err().map(|findings| findings.to_string()).unwrap_or_default();
         assert!(message.contains(expected), "{text}: {message}");
     }

@@ -36,7 +36,8 @@ fn piped(commands: &[&str], input: &str, joint: fn(&[u8]) -> Vec<u8>) -> Vec<u8>
 /// A picture without the command lines in the header of a PPM file.
 fn without_history(file: &[u8]) -> Vec<u8> {
     let is_comment = |line: &&[u8]| line.starts_with(b"#");
-    let n_lines = file.split_inclusive(|&byte| byte == b'\n').skip(1).take_while(is_comment).count();
+    let n_lines =
+        file.split_inclusive(|&byte| byte == b'\n').skip(1).take_while(is_comment).count();
     let mut lines = file.splitn(n_lines + 2, |&byte| byte == b'\n');
     let (first, rest) = (lines.next().unwrap_or_default(), lines.last().unwrap_or_default());
     [first, b"\n", rest].concat()
@@ -56,10 +57,23 @@ fn without_comments(text: &[u8]) -> Vec<u8> {
 
 #[test]
 fn comments_tell_programs_nothing() {
-    let lorentz =
-        ["", "-vel 0 -.4 .1 -in -sd 2", "-cv .3 .2 0 -sm", "-nc -ti 2", "--no-flight-time", "-vel 0 0 0"];
-    let doppler =
-        ["", "-gw -vr", "-sp -ir", "-li", "-br photon --no-doppler", "-sp --no-flux -li", "-gw -li -hd"];
+    let lorentz = [
+        "",
+        "-vel 0 -.4 .1 -in -sd 2",
+        "-cv .3 .2 0 -sm",
+        "-nc -ti 2",
+        "--no-flight-time",
+        "-vel 0 0 0",
+    ];
+    let doppler = [
+        "",
+        "-gw -vr",
+        "-sp -ir",
+        "-li",
+        "-br photon --no-doppler",
+        "-sp --no-flux -li",
+        "-gw -li -hd",
+    ];
     let rainbow = ["-dt ppm", "-dt pfm", "-dt ppm -lg -dl -gr", "-dt ppm -iw -ed"];
     let mut n_pictures = 0;
     let mut check = |commands: &[&str]| {
@@ -77,7 +91,9 @@ fn comments_tell_programs_nothing() {
     let (lorentz, doppler) = (options("uglorentz", &lorentz), options("ugdoppler", &doppler));
     let rainbow = options("ugrainbow -sz 240 180 -aa 1", &rainbow);
     for (row, first) in lorentz.iter().enumerate() {
-        for (column, second) in doppler.iter().enumerate().filter(|(column, _)| (row + column) % 2 == 0) {
+        for (column, second) in
+            doppler.iter().enumerate().filter(|(column, _)| (row + column) % 2 == 0)
+        {
             // Half of the pairs, and every kind of picture.
             check(&[first, second, &rainbow[(row + column) / 2 % rainbow.len()]]);
         }
@@ -92,7 +108,10 @@ fn comments_tell_programs_nothing() {
     for last in ["ugmesh -dt obj", "ugparse check"] {
         let head_of_mesh = |text: Vec<u8>| -> String {
             let text = String::from_utf8(text).expect("text");
-            text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| [line, "\n"]).collect()
+            text.lines()
+                .filter(|line| !line.starts_with('#'))
+                .flat_map(|line| [line, "\n"])
+                .collect()
         };
         let commands = ["uglorentz -vel 0 -.4 .1 -sm", "ugdoppler -qt -gw", last];
         let [plain, stripped] = [<[u8]>::to_vec, without_comments]
@@ -147,14 +166,18 @@ fn refused(command: &str, input: &[u8]) -> String {
 }
 
 /// Nothing moves.
-const STILL: &str = "c red 1 20; v a 0 5 0; v b 1 5 0; v c 0 5 1; f (a b c) red; l 1; cam -vc 0 5 0;";
+const STILL: &str =
+    "c red 1 20; v a 0 5 0; v b 1 5 0; v c 0 5 1; f (a b c) red; l 1; cam -vc 0 5 0;";
 
 #[test]
 fn colours_come_last_even_at_rest() {
     let colored = piped(&["ugdoppler"], STILL, <[u8]>::to_vec);
     for command in ["uglorentz -vel .1 0 0", "ugdoppler"] {
         let messages = refused(command, &colored);
-        assert!(messages.contains("colours in this scene are as seen already"), "{command}: {messages}");
+        assert!(
+            messages.contains("colours in this scene are as seen already"),
+            "{command}: {messages}"
+        );
     }
 }
 
@@ -163,7 +186,12 @@ fn legitimate_pipes_pass() {
     let check = |pipe: &[&str], scene: &str| drop(piped(pipe, scene, <[u8]>::to_vec));
     // Nothing moves, so positions do not depend on the eye and stay at rest.
     check(
-        &["uglorentz -ep 0 -1 0", "uglorentz", "ugdoppler -ep 0 0 1", "ugrainbow -ep 1 1 1 -sz 9 9"],
+        &[
+            "uglorentz -ep 0 -1 0",
+            "uglorentz",
+            "ugdoppler -ep 0 0 1",
+            "ugrainbow -ep 1 1 1 -sz 9 9",
+        ],
         STILL,
     );
     check(&["ugdoppler -vel 0 -.3 0", "ugrainbow -sz 9 9"], STILL);
@@ -178,8 +206,8 @@ fn legitimate_pipes_pass() {
 #[test]
 fn wavelengths_need_no_option() {
     let picture = |last: &str| piped(&["uglorentz", "ugdoppler -gw", last], SCENE, <[u8]>::to_vec);
-    let [plain, asked] =
-        ["", "-wi"].map(|option| without_history(&picture(&format!("ugrainbow -sz 60 40 -dt ppm {option}"))));
+    let [plain, asked] = ["", "-wi"]
+        .map(|option| without_history(&picture(&format!("ugrainbow -sz 60 40 -dt ppm {option}"))));
     assert!(plain == asked, "-wi makes a difference");
 }
 
@@ -202,7 +230,8 @@ fn explanations_name_the_law_of_spectra() {
         ("-br photon -li", "the light of lamps is in them", "\"photon\""),
     ] {
         let doppler = format!("ugdoppler {options}");
-        for (last, part) in [("", told), (" --format json", &format!("\"brightness_law\": {law}"))] {
+        for (last, part) in [("", told), (" --format json", &format!("\"brightness_law\": {law}"))]
+        {
             let last = format!("ugrainbow -sz 40 30 --explain 8,20{last}");
             let text = piped(&["uglorentz", &doppler, &last], SCENE, <[u8]>::to_vec);
             let text = String::from_utf8(text).expect("text");

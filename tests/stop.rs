@@ -67,7 +67,8 @@ fn rays_are_stopped() {
 
 #[test]
 fn scanlines_and_exact_samples_are_stopped() {
-    let (scene, _) = uglorentz::apply(scenes::parse(&scenes::text("ship")), &Default::default()).unwrap();
+    let (scene, _) =
+        uglorentz::apply(scenes::parse(&scenes::text("ship")), &Default::default()).unwrap();
     let (colored, _) = ugdoppler::apply(scene.clone(), &Default::default()).unwrap();
     let mut config = ugrainbow::Config::default();
     config.picture.size = SIZE;
@@ -84,7 +85,9 @@ fn scanlines_and_exact_samples_are_stopped() {
 
 #[test]
 fn panoramas_are_stopped() {
-    let sky = Panorama::new([64, 32], Texels::Srgb(vec![[64, 90, 200, 255]; 64 * 32]), Extent::FULL).unwrap();
+    let sky =
+        Panorama::new([64, 32], Texels::Srgb(vec![[64, 90, 200, 255]; 64 * 32]), Extent::FULL)
+            .unwrap();
     let mut config = ugwarp::Config::default();
     config.picture.size = [128, 1024];
     check(|progress| ugwarp::render_with(&sky, &config, progress));

@@ -57,10 +57,11 @@ fn place(path: &Path, line: usize) -> String {
 /// Crates and their folders: those of `crates/`, the conformance suite, the Python package and the
 /// page.
 fn crates() -> BTreeMap<String, PathBuf> {
-    let manifests = files(&root().join("crates")).into_iter().filter(|path| path.ends_with("Cargo.toml"));
+    let manifests =
+        files(&root().join("crates")).into_iter().filter(|path| path.ends_with("Cargo.toml"));
     let folders = manifests.filter_map(|path| path.parent().map(Path::to_path_buf));
-    let named =
-        folders.filter_map(|folder| Some((folder.file_name()?.to_string_lossy().into_owned(), folder)));
+    let named = folders
+        .filter_map(|folder| Some((folder.file_name()?.to_string_lossy().into_owned(), folder)));
     let others = [("ugconformance", "conformance"), ("ugpython", "python"), ("ugweb", "web")];
     named.chain(others.map(|(name, folder)| (name.to_string(), root().join(folder)))).collect()
 }
@@ -68,7 +69,8 @@ fn crates() -> BTreeMap<String, PathBuf> {
 /// The table of ARCHITECTURE.md: crate → what it may depend on.
 fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let text = read(&root().join("ARCHITECTURE.md"));
-    let rows = text.lines().skip_while(|line| *line != "| crate | may depend on | never sees |").skip(2);
+    let rows =
+        text.lines().skip_while(|line| *line != "| crate | may depend on | never sees |").skip(2);
     let row = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         let [krate, uses, _] = cells[..] else {
@@ -93,7 +95,9 @@ fn crates_depend_on_what_the_table_allows() {
     let (table, crates) = (allowed(), crates());
     let mut findings = Vec::new();
     let gone = table.keys().filter(|krate| !crates.contains_key(*krate));
-    findings.extend(gone.map(|krate| format!("ARCHITECTURE.md: there is no crate {krate}: remove its row")));
+    findings.extend(
+        gone.map(|krate| format!("ARCHITECTURE.md: there is no crate {krate}: remove its row")),
+    );
     for (krate, folder) in &crates {
         let Some(allowed) = table.get(krate) else {
             findings.push(format!(
@@ -164,12 +168,15 @@ fn third_party_crates_have_a_licence_a_checksum_and_one_version() {
 fn data_goes_one_way() {
     const ORDER: [&str; 4] = ["ugparse", "uglorentz", "ugdoppler", "ugrainbow"];
     let table = allowed();
-    let may_use = |krate: &str, other: &str| table.get(krate).is_some_and(|allowed| allowed.contains(other));
+    let may_use =
+        |krate: &str, other: &str| table.get(krate).is_some_and(|allowed| allowed.contains(other));
     let remedy = "move what both need to a crate below them";
     let mut findings = Vec::new();
     for (step, krate) in ORDER.iter().enumerate() {
         let later = ORDER[step + 1..].iter().filter(|later| may_use(krate, later));
-        findings.extend(later.map(|later| format!("ARCHITECTURE.md: {krate} may use {later}: {remedy}")));
+        findings.extend(
+            later.map(|later| format!("ARCHITECTURE.md: {krate} may use {later}: {remedy}")),
+        );
     }
     // Programs exchange text.
     for pair in ORDER[1..].windows(2).filter(|pair| may_use(pair[1], pair[0])) {
@@ -207,7 +214,8 @@ fn no_crate_spells_the_name_of_a_sibling_program() {
     let mut n_literals = 0;
     let calls_all = |krate: &str| ["ugconformance", "ugpython"].contains(&krate);
     for (krate, folder) in crates().into_iter().filter(|(krate, _)| !calls_all(krate)) {
-        for path in files(&folder.join("src")).into_iter().filter(|path| has_ending(path, &["rs"])) {
+        for path in files(&folder.join("src")).into_iter().filter(|path| has_ending(path, &["rs"]))
+        {
             if EXEMPT.iter().any(|exempt| path.ends_with(exempt)) {
                 continue;
             }
@@ -237,7 +245,8 @@ fn no_crate_spells_the_name_of_a_sibling_program() {
 fn text_leaves_where_it_is_made_printable() {
     const EDGE: [&str; 2] = ["crates/ugpipe/src/cli/messages.rs", "crates/ugpipe/src/cli/steps.rs"];
     let is_outside = |name: &str, line: &str| {
-        let is_rendered = ["Failure::Report(", "context.report("].iter().any(|call| line.contains(call));
+        let is_rendered =
+            ["Failure::Report(", "context.report("].iter().any(|call| line.contains(call));
         (line.contains("io::stderr") && !EDGE.contains(&name))
             || (line.contains("Renderer::") && name != "crates/ugparse/src/report.rs")
             || (is_rendered && !name.starts_with("crates/ugpipe/") && !line.contains(".report()"))
@@ -247,15 +256,17 @@ fn text_leaves_where_it_is_made_printable() {
     let mut n_files = 0;
     for (path, text) in texts() {
         let name = path.strip_prefix(root()).unwrap().display().to_string();
-        let is_source =
-            (name.starts_with("crates/") || name.starts_with("conformance/")) && name.contains("/src/");
+        let is_source = (name.starts_with("crates/") || name.starts_with("conformance/"))
+            && name.contains("/src/");
         if !is_source || !has_ending(&path, &["rs"]) {
             continue;
         }
         n_files += 1;
-        let code = text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
+        let code =
+            text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
         let outside = code.filter(|(_, line)| is_outside(&name, line));
-        findings.extend(outside.map(|(idx, line)| format!("{}: {}", place(&path, idx), line.trim())));
+        findings
+            .extend(outside.map(|(idx, line)| format!("{}: {}", place(&path, idx), line.trim())));
     }
     assert!(n_files > 100, "{n_files}");
     assert_none(&findings);
@@ -272,7 +283,9 @@ fn every_equation_that_is_cited_exists() {
     let is_known = |number: u32| physics.contains(&format!("**(P{number})**"));
     let mut n_citations = 0;
     let mut findings = Vec::new();
-    for (path, text) in texts().into_iter().filter(|(path, _)| has_ending(path, &["rs", "md", "ug"])) {
+    for (path, text) in
+        texts().into_iter().filter(|(path, _)| has_ending(path, &["rs", "md", "ug"]))
+    {
         for (row, line) in text.lines().enumerate() {
             for number in citations(line) {
                 n_citations += 1;
@@ -302,8 +315,9 @@ fn every_scene_is_in_the_list_of_scenes() {
     assert!(names.len() >= 9, "{names:?}");
     let mut findings = Vec::new();
     let folder = root().join("scenes");
-    for path in
-        files(&folder).iter().filter(|path| has_ending(path, &["ug"]) && path.parent() == Some(&folder))
+    for path in files(&folder)
+        .iter()
+        .filter(|path| has_ending(path, &["ug"]) && path.parent() == Some(&folder))
     {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         if !names.contains(&name) {
@@ -331,13 +345,18 @@ fn every_bad_scene_has_its_message() {
     let bad = files(&root().join("scenes").join("bad"));
     let is_there = |path: &Path, ending: &str| bad.contains(&path.with_extension(ending));
     let scenes = bad.iter().filter(|path| has_ending(path, &["ug"]) && !is_there(path, "expected"));
-    let messages = bad.iter().filter(|path| has_ending(path, &["expected"]) && !is_there(path, "ug"));
+    let messages =
+        bad.iter().filter(|path| has_ending(path, &["expected"]) && !is_there(path, "ug"));
     let mut findings: Vec<String> = scenes
         .map(|path| {
-            format!("{}: no message: `UG_BLESS=1 cargo test -p ugparse --test bad_scenes`", place(path, 0))
+            format!(
+                "{}: no message: `UG_BLESS=1 cargo test -p ugparse --test bad_scenes`",
+                place(path, 0)
+            )
         })
         .collect();
-    findings.extend(messages.map(|path| format!("{}: its scene is gone: delete it", place(path, 0))));
+    findings
+        .extend(messages.map(|path| format!("{}: its scene is gone: delete it", place(path, 0))));
     assert_none(&findings);
     assert!(bad.len() > 80, "{} files", bad.len());
 }
@@ -346,7 +365,8 @@ fn every_bad_scene_has_its_message() {
 fn every_scene_parses_and_writes_itself() {
     for name in scenes::names() {
         let parse = |text: Vec<u8>| {
-            let parsed = ugparse::parse(&Source::new(format!("{name}.ug"), text), &Options::default());
+            let parsed =
+                ugparse::parse(&Source::new(format!("{name}.ug"), text), &Options::default());
             let parsed = parsed.unwrap_or_else(|findings| panic!("{findings}"));
             assert!(parsed.warnings.is_empty(), "{}", parsed.warnings);
             parsed
@@ -356,7 +376,10 @@ fn every_scene_parses_and_writes_itself() {
         let written = write(&parsed);
         assert!(write(&parse(written.clone())) == written, "{name}");
         let scene = parsed.scene;
-        assert!(!scene.faces.is_empty() && !scene.cameras.is_empty() && !scene.lights.is_empty(), "{name}");
+        assert!(
+            !scene.faces.is_empty() && !scene.cameras.is_empty() && !scene.lights.is_empty(),
+            "{name}"
+        );
     }
 }
 
@@ -369,17 +392,21 @@ fn faces_of_scenes_are_flat() {
     let mut findings = Vec::new();
     for name in scenes::names() {
         let scene = scenes::parse(&scenes::text(&name));
-        for (row, face) in scene.faces.iter().enumerate().filter(|(_, face)| !face.shape.is_round()) {
+        for (row, face) in scene.faces.iter().enumerate().filter(|(_, face)| !face.shape.is_round())
+        {
             let corners: Vec<_> = scene
                 .face_contours(face)
                 .flatten()
                 .map(|vertex| scene.vertices[vertex.index()].position)
                 .collect();
             let outline = scene.face_contours(face).next().map_or(0, <[_]>::len);
-            let normal = ugscene::newell_normal(corners[..outline].iter().copied()).normalize_or_zero();
+            let normal =
+                ugscene::newell_normal(corners[..outline].iter().copied()).normalize_or_zero();
             let heights = corners.iter().map(|&corner| (corner - corners[0]).dot(normal));
-            let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
-            let size = corners.iter().map(|&corner| (corner - corners[0]).length()).fold(0.0, f64::max);
+            let (low, high) =
+                heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+            let size =
+                corners.iter().map(|&corner| (corner - corners[0]).length()).fold(0.0, f64::max);
             if high - low > ROUNDING + SLACK * size {
                 findings.push(format!(
                     "scenes/{name}.ug: face {row} of size {size:.3} is {:.4} thick: cut it into triangles",
@@ -394,14 +421,19 @@ fn faces_of_scenes_are_flat() {
 #[test]
 fn nothing_names_a_place_on_somebodys_machine() {
     // Split by `~`, so that this file does not contain them.
-    let places =
-        ["/ho~me/", "/ro~ot/", "/wo~rk/", "/Us~ers/", "..~/shared", "C:\\~Users"].map(|p| p.replace('~', ""));
+    let places = ["/ho~me/", "/ro~ot/", "/wo~rk/", "/Us~ers/", "..~/shared", "C:\\~Users"]
+        .map(|p| p.replace('~', ""));
     let mut findings = Vec::new();
     for (path, text) in texts() {
         for (row, line) in text.lines().enumerate() {
-            findings.extend(places.iter().filter(|&name| line.contains(name.as_str())).map(|name| {
-                format!("{} names {name}: say it without a path of one machine", place(&path, row))
-            }));
+            findings.extend(places.iter().filter(|&name| line.contains(name.as_str())).map(
+                |name| {
+                    format!(
+                        "{} names {name}: say it without a path of one machine",
+                        place(&path, row)
+                    )
+                },
+            ));
         }
     }
     assert_none(&findings);
@@ -419,8 +451,9 @@ fn every_source_file_says_what_it_is() {
         .collect();
     assert!(sources.len() > 50, "{} sources", sources.len());
     let silent = sources.iter().filter(|(_, text)| !text.starts_with("//! "));
-    let findings: Vec<String> =
-        silent.map(|(path, _)| format!("{}: begin with `//!` and a sentence", place(path, 0))).collect();
+    let findings: Vec<String> = silent
+        .map(|(path, _)| format!("{}: begin with `//!` and a sentence", place(path, 0)))
+        .collect();
     assert_none(&findings);
 }
 
@@ -433,10 +466,15 @@ fn text_is_clean() {
         let lines = text.lines().enumerate();
         let untidy = lines.filter(|(_, line)| line.ends_with([' ', '\t', '\r']));
         findings.extend(
-            untidy.map(|(row, _)| format!("{}: white space at the end: remove it", place(&path, row))),
+            untidy.map(|(row, _)| {
+                format!("{}: white space at the end: remove it", place(&path, row))
+            }),
         );
         if !text.is_empty() && (!text.ends_with('\n') || text.ends_with("\n\n")) {
-            findings.push(format!("{}: the last line ends with exactly one line feed", place(&path, 0)));
+            findings.push(format!(
+                "{}: the last line ends with exactly one line feed",
+                place(&path, 0)
+            ));
         }
     }
     assert_none(&findings);
@@ -460,7 +498,10 @@ fn every_source_file_is_in_a_module() {
         let sources = sources(&folder);
         assert!(!sources.is_empty(), "{}", folder.display());
         let message = |path: &String| {
-            format!("{}: no `mod` leads here: declare or delete it", place(&folder.join("src").join(path), 0))
+            format!(
+                "{}: no `mod` leads here: declare or delete it",
+                place(&folder.join("src").join(path), 0)
+            )
         };
         findings.extend(modules::undeclared(&sources).into_iter().map(message));
     }
@@ -493,7 +534,10 @@ fn no_two_crates_export_types_of_one_name() {
         .filter(|(name, crates)| crates.len() > 1 && !OF_EVERY_PROGRAM.contains(&name.as_str()));
     let findings: Vec<String> = shared
         .map(|(name, crates)| {
-            format!("{} export different types `{name}`: give each a name of its own", crates.join(" and "))
+            format!(
+                "{} export different types `{name}`: give each a name of its own",
+                crates.join(" and ")
+            )
         })
         .collect();
     assert_none(&findings);
@@ -517,7 +561,11 @@ fn rust_files(folder: &Path) -> BTreeMap<PathBuf, String> {
 fn lines_of(part: &str, folder: &Path) -> lines::Lines {
     let lines = lines::of_crate(&rust_files(folder), folder);
     let is_test = ["tests", "fuzz", "ugtesting"].contains(&part);
-    if is_test { lines::Lines { production: 0, test: lines.production + lines.test } } else { lines }
+    if is_test {
+        lines::Lines { production: 0, test: lines.production + lines.test }
+    } else {
+        lines
+    }
 }
 
 /// Words of the pages in `docs/`.
@@ -560,11 +608,13 @@ fn code_and_words_stay_within_the_budget() {
             continue;
         };
         let is_over = std::iter::zip(counted, most).any(|(counted, most)| counted > most);
-        let is_loose = std::iter::zip(counted, most).any(|(counted, most)| most > counted + counted / 100);
+        let is_loose =
+            std::iter::zip(counted, most).any(|(counted, most)| most > counted + counted / 100);
         if is_over {
             findings.push(format!("{part}: {counted:?} lines or words, and its budget is {most:?}: remove as much elsewhere in it"));
         } else if is_loose && std::env::var_os("UG_BLESS").is_some() {
-            let row = |[production, test]: [usize; 2]| format!("| {part} | {production} | {test} |\n");
+            let row =
+                |[production, test]: [usize; 2]| format!("| {part} | {production} | {test} |\n");
             text = text.replace(&row(most), &row(counted));
             fs::write(&path, &text).unwrap();
         } else if is_loose {

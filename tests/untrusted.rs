@@ -64,7 +64,12 @@ impl Case<'_> {
         let mut is_quoted = false;
         for payload in PAYLOADS {
             let output = self.run(payload, false);
-            assert!(matches!(output.status.code(), Some(0..=2)), "{:?}: {}", self.words, output.status);
+            assert!(
+                matches!(output.status.code(), Some(0..=2)),
+                "{:?}: {}",
+                self.words,
+                output.status
+            );
             is_quoted |= self.check_text(&output.stderr);
             if self.prints_text() {
                 is_quoted |= self.check_text(&output.stdout);
@@ -77,8 +82,10 @@ impl Case<'_> {
 
     /// True if standard output is for people, or a scene made from foreign files.
     fn prints_text(&self) -> bool {
-        let is_report =
-            self.words.iter().any(|word| ["--explain", "count", "check", "svg", "ps"].contains(word));
+        let is_report = self
+            .words
+            .iter()
+            .any(|word| ["--explain", "count", "check", "svg", "ps"].contains(word));
         is_report || self.words[0] == "ugmesh"
     }
 
@@ -128,10 +135,14 @@ fn glb(mut json: Vec<u8>) -> Vec<u8> {
 /// A picture with a history.
 fn png(history: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    image::RgbImage::new(40, 30).write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).unwrap();
+    image::RgbImage::new(40, 30)
+        .write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)
+        .unwrap();
     let body = [b"iTXtComment\0\0\0\0\0", history].concat();
     let step = |crc: u32| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
-    let crc = !body.iter().fold(!0u32, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc)));
+    let crc = !body
+        .iter()
+        .fold(!0u32, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc)));
     let mut chunk = (body.len() as u32 - 4).to_be_bytes().to_vec();
     chunk.write_all(&body).unwrap();
     chunk.write_all(&crc.to_be_bytes()).unwrap();
@@ -189,7 +200,12 @@ fn fields_of_scenes() {
         check_files(&explain, "scene.ug", &[&format!("# 1 \"@\"\n{camera} {TRIANGLE}")], &[]);
     }
     for program in ["uglorentz", "ugdoppler", "ugrainbow"] {
-        check_files(&[program, "scene.ug"], "scene.ug", &["# 1 \"@\"\nf (a b c);", "v @ 0 0 0;"], &[]);
+        check_files(
+            &[program, "scene.ug"],
+            "scene.ug",
+            &["# 1 \"@\"\nf (a b c);", "v @ 0 0 0;"],
+            &[],
+        );
     }
     for script in ["#!/bin/sh\nprintf '%s' '@' >&2\nexit 3\n", "#!/bin/sh\nprintf '%s' '@' >&2\n"] {
         let files = [("scene.ug", "execute \"./say.sh\";"), ("say.sh", script)];
@@ -208,7 +224,12 @@ fn fields_of_meshes() {
         &format!("mtllib @\n{points}f 1 2 3\n"),
         &format!("# @\n{points}f 1 2 3\n"),
     ];
-    check_files(&["ugmesh", "mesh.obj"], "mesh.obj", &obj, &["vn @ 0 0\n", "@ 1\n", "v 0 0 0\nf 1//@ 1 1\n"]);
+    check_files(
+        &["ugmesh", "mesh.obj"],
+        "mesh.obj",
+        &obj,
+        &["vn @ 0 0\n", "@ 1\n", "v 0 0 0\nf 1//@ 1 1\n"],
+    );
     let mesh = format!("mtllib a.mtl\n{points}usemtl @\nf 1 2 3\n");
     let files = [("mesh.obj", mesh.as_str()), ("a.mtl", "newmtl x@\nKd @ 1 1\n@ 2\n")];
     assert!(Case { words: &["ugmesh", "mesh.obj"], files: &files }.check());
@@ -231,8 +252,17 @@ fn fields_of_meshes() {
     let ply = "ply\nformat ascii 1.0\ncomment x\nelement vertex 3\nproperty float x\nproperty float y\n\
                property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
                0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    let fields =
-        ["ascii", "comment", "vertex 3", "float x", " z", "face", "uchar", "vertex_indices", "0 1 0"];
+    let fields = [
+        "ascii",
+        "comment",
+        "vertex 3",
+        "float x",
+        " z",
+        "face",
+        "uchar",
+        "vertex_indices",
+        "0 1 0",
+    ];
     let damaged = fields.map(|field| ply.replace(field, "@"));
     check_files(
         &["ugmesh", "mesh.ply"],
@@ -269,9 +299,12 @@ fn fields_of_meshes() {
 fn labels_and_histories_of_pictures() {
     for format in ["svg", "ps"] {
         let files = [("@.png", "x"), ("b.png", "uglorentz -vel .5 0 0 --title '@'\n@")];
-        for label in
-            [["-lb", "names"].as_slice(), &["-label", "@", "-label", "b@"], &["-title", "@"], &["-cap", "@"]]
-        {
+        for label in [
+            ["-lb", "names"].as_slice(),
+            &["-label", "@", "-label", "b@"],
+            &["-title", "@"],
+            &["-cap", "@"],
+        ] {
             let words = [&["ugsheet", "@.png", "b.png", "-dt", format], label].concat();
             for payload in PAYLOADS {
                 let files = files.map(|(name, content)| (name.replace('@', payload), content));
@@ -279,9 +312,13 @@ fn labels_and_histories_of_pictures() {
                 let case = Case { words: &words, files: &files };
                 let output = case.run(payload, false);
                 case.check_text(&output.stderr);
-                assert!(!String::from_utf8_lossy(&output.stdout).contains(is_dangerous), "{words:?}");
+                assert!(
+                    !String::from_utf8_lossy(&output.stdout).contains(is_dangerous),
+                    "{words:?}"
+                );
                 if format == "ps" {
-                    let is_plain = |byte: &u8| byte.is_ascii_graphic() || matches!(byte, b' ' | b'\n');
+                    let is_plain =
+                        |byte: &u8| byte.is_ascii_graphic() || matches!(byte, b' ' | b'\n');
                     assert!(output.stdout.iter().all(is_plain), "{words:?}");
                 } else if output.status.success() {
                     assert_well_formed(&String::from_utf8(output.stdout).unwrap());
@@ -299,7 +336,10 @@ fn assert_well_formed(xml: &str) {
         let (tag, text) = part.split_once('>').unwrap_or_else(|| panic!("not closed: {part}"));
         assert!(!text.contains('>'), "{text}");
         for reference in text.split('&').skip(1) {
-            assert!(["lt;", "gt;", "amp;", "quot;"].iter().any(|name| reference.starts_with(name)), "{text}");
+            assert!(
+                ["lt;", "gt;", "amp;", "quot;"].iter().any(|name| reference.starts_with(name)),
+                "{text}"
+            );
         }
         match tag.strip_prefix('/') {
             Some(name) => assert_eq!(open.pop(), Some(name)),
@@ -312,14 +352,17 @@ fn assert_well_formed(xml: &str) {
 
 /// The long options of a program, with the number of their values.
 fn options(program: &[&str]) -> Vec<(String, usize)> {
-    let help = Command::new(PROGRAMS.join(program[0])).args(&program[1..]).arg("--help").output().unwrap();
+    let help =
+        Command::new(PROGRAMS.join(program[0])).args(&program[1..]).arg("--help").output().unwrap();
     let help = String::from_utf8(help.stdout).unwrap();
     // `  -vel, --velocity X Y Z`
     let option = |line: &str| {
         let option = line.strip_prefix("  ").filter(|option| option.starts_with('-'))?;
         let words: Vec<&str> = option.split(' ').collect();
-        let (names, values): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
-        let long = names.iter().map(|name| name.trim_end_matches(',')).find(|name| name.len() > 2)?;
+        let (names, values): (Vec<&str>, Vec<&str>) =
+            words.iter().partition(|word| word.starts_with('-'));
+        let long =
+            names.iter().map(|name| name.trim_end_matches(',')).find(|name| name.len() > 2)?;
         let n_needed = values.iter().filter(|value| !value.starts_with('[')).count();
         Some((format!("--{}", long.trim_start_matches('-')), n_needed))
     };
@@ -347,10 +390,12 @@ fn options_and_file_names() {
     let mut n_quoted = 0;
     for (program, input) in programs {
         for (option, n_values) in options(program) {
-            let words = [program, &[option.as_str()], &vec!["@"; n_values.max(1)], &[input]].concat();
+            let words =
+                [program, &[option.as_str()], &vec!["@"; n_values.max(1)], &[input]].concat();
             n_quoted += usize::from(Case { words: &words, files: &files }.check());
         }
-        for words in [["--@", input].as_slice(), &["-@", input], &["@"], &[input, "@"], &["--fi=@"]] {
+        for words in [["--@", input].as_slice(), &["-@", input], &["@"], &[input, "@"], &["--fi=@"]]
+        {
             let words = [program, words].concat();
             assert!(Case { words: &words, files: &files }.check(), "{words:?}");
         }

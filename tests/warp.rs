@@ -3,7 +3,9 @@
 
 use glam::DVec3;
 use ugimage::{Compression, Format, LinearFrame, Metadata, PictureLimits};
-use ugphoton::{CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions};
+use ugphoton::{
+    CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions,
+};
 use ugphysics::{Velocity, srgb_encode};
 use ugscene::Scene;
 use ugwarp::{Arrangement, Basis, Extent, Panorama, Sky, Texels};
@@ -44,8 +46,8 @@ fn psnr(one: &LinearFrame, other: &LinearFrame, peak: f64) -> f64 {
     let (mut sum, mut n) = (0.0, 0.0);
     for (one, other) in one.pixels().iter().zip(other.pixels()) {
         for channel in 0..3 {
-            let [one, other] =
-                [one, other].map(|pixel| srgb_encode((f64::from(pixel[channel]) / peak).clamp(0.0, 1.0)));
+            let [one, other] = [one, other]
+                .map(|pixel| srgb_encode((f64::from(pixel[channel]) / peak).clamp(0.0, 1.0)));
             sum += (one - other) * (one - other);
             n += 1.0;
         }
@@ -75,13 +77,24 @@ fn check(colors: &str, shift: ColorShift, basis: Basis) {
         let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
         let by_rays = traced(
             &scene,
-            ugphoton::Config { picture: picture([96, 72], 6), motion, shift, ..ugphoton::Config::default() },
+            ugphoton::Config {
+                picture: picture([96, 72], 6),
+                motion,
+                shift,
+                ..ugphoton::Config::default()
+            },
         );
         let velocity = Velocity::from_beta(beta).unwrap();
-        let config =
-            ugwarp::Config { velocity, shift, basis, picture: picture([96, 72], 4), ..Default::default() };
+        let config = ugwarp::Config {
+            velocity,
+            shift,
+            basis,
+            picture: picture([96, 72], 4),
+            ..Default::default()
+        };
         let warped = ugwarp::light(&sky, &config).unwrap();
-        let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+        let peak =
+            by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
         let found = psnr(&by_rays, &warped, f64::from(peak));
         assert!(found > 40.0, "{shift:?} {beta}: {found} dB");
     }
@@ -137,17 +150,24 @@ fn radiances_are_those_of_a_moving_camera() {
         let sky = traced(&scene, sky);
         let file = Format::Exr.encode_linear(&sky, &Metadata::default(), Compression::Fast);
         let limits = PictureLimits::default();
-        let bands = ugskybox::open_spectrum(&file, Arrangement::Equirectangular, None, &limits).unwrap();
+        let bands =
+            ugskybox::open_spectrum(&file, Arrangement::Equirectangular, None, &limits).unwrap();
         let all = Sky { bands: &bands, ..Sky::default() };
-        let three = Panorama::new(size, Texels::Light(sky.pixels().to_vec()), Extent::FULL).unwrap();
+        let three =
+            Panorama::new(size, Texels::Light(sky.pixels().to_vec()), Extent::FULL).unwrap();
         for beta in [DVec3::new(0.0, 0.9, 0.0), DVec3::new(0.0, -0.9, 0.0)] {
             let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
-            let by_rays = ugphoton::Config { picture: own([24, 18], 4), motion, shift, ..Default::default() };
+            let by_rays =
+                ugphoton::Config { picture: own([24, 18], 4), motion, shift, ..Default::default() };
             let by_rays = traced(&scene, by_rays);
             let velocity = Velocity::from_beta(beta).unwrap();
-            let config = ugwarp::Config { velocity, shift, picture: own([24, 18], 4), ..Default::default() };
-            let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
-            let of = |sky: Sky<'_>| psnr(&by_rays, &ugwarp::light(sky, &config).unwrap(), f64::from(peak));
+            let config =
+                ugwarp::Config { velocity, shift, picture: own([24, 18], 4), ..Default::default() };
+            let peak =
+                by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+            let of = |sky: Sky<'_>| {
+                psnr(&by_rays, &ugwarp::light(sky, &config).unwrap(), f64::from(peak))
+            };
             let (found, of_three) = (of(all), of(Sky::from(&three)));
             assert!(found > 50.0 && of_three < 25.0, "{color} {beta}: {found} dB, {of_three} dB");
         }
@@ -169,7 +189,8 @@ fn cameras_on_world_lines_see_the_same() {
         let (sin, cos) = libm::sincos(0.7 * gamma * time);
         let place = DVec3::new(sin, 1.0 - cos, 0.0);
         let camera = CameraOptions { eye: Some(place), center: Some(place + DVec3::Y), ..camera() };
-        let motion = MotionOptions { camera_velocity: Some(DVec3::ZERO), ..MotionOptions::default() };
+        let motion =
+            MotionOptions { camera_velocity: Some(DVec3::ZERO), ..MotionOptions::default() };
         let picture = PictureOptions { camera, ..picture(size, 2) };
         let sky = ugphoton::Config { picture, motion, lens: Lens::Panorama, ..Default::default() };
         let sky = traced(&scene, sky).pixels().to_vec();
@@ -179,7 +200,8 @@ fn cameras_on_world_lines_see_the_same() {
         let by_rays = traced(&scene, by_rays);
         let config = ugwarp::Config { time, picture: own([96, 72], 4), ..Default::default() };
         let warped = ugwarp::light(&sky, &config.with_camera_of(&scene).unwrap()).unwrap();
-        let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+        let peak =
+            by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
         let found = psnr(&by_rays, &warped, f64::from(peak));
         assert!(found > 40.0, "{time}: {found} dB");
     }

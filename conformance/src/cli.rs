@@ -189,7 +189,9 @@ pub fn main() -> ExitCode {
 fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     let Some(command) = &args.command else { return Err(no_command(args.rest.input())) };
     if args.rest.input().is_some() {
-        return Err(Failure::usage("the command must come before the file: `ugconformance score FILE`"));
+        return Err(Failure::usage(
+            "the command must come before the file: `ugconformance score FILE`",
+        ));
     }
     let topics = topics().map_err(Failure::failed)?;
     match command {
@@ -243,7 +245,9 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
 impl CompareArgs {
     fn compared(&self, context: &mut Context) -> Result<Comparison, Failure> {
         let Some(truth) = &self.truth else {
-            return Err(Failure::usage("compare requires two pictures: `ugconformance compare MINE TRUTH`"));
+            return Err(Failure::usage(
+                "compare requires two pictures: `ugconformance compare MINE TRUTH`",
+            ));
         };
         let (mine, truth) = (context.input()?, context.input_file(truth)?);
         Comparison::new((&mine.name, &mine.text), (&truth.name, &truth.text), self.tolerance)
@@ -253,7 +257,8 @@ impl CompareArgs {
 
 /// The error for a command line without a command. A word before it is the name of a file.
 fn no_command(word: Option<&Path>) -> Failure {
-    let commands = "commands are questions, score, score-image, compare, draw, mesh, table and check";
+    let commands =
+        "commands are questions, score, score-image, compare, draw, mesh, table and check";
     Failure::Usage(match word {
         Some(word) => format!("`{}` is not a command; {commands}", word.display()),
         None => format!("a command is missing; {commands}"),
@@ -305,6 +310,9 @@ fn check() -> (String, bool) {
             wrong.push(name);
         }
     }
-    text += &format!("wrong: {}\n", if wrong.is_empty() { "nothing".to_string() } else { wrong.join(" ") });
+    text += &format!(
+        "wrong: {}\n",
+        if wrong.is_empty() { "nothing".to_string() } else { wrong.join(" ") }
+    );
     (text, wrong.is_empty())
 }

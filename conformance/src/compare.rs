@@ -123,12 +123,16 @@ impl Light {
     fn read((name, file): (&str, &[u8])) -> Result<Self, String> {
         refuse_lossy(file, FORMATS).map_err(|problem| format!("{name}: {problem}"))?;
         let ReadPicture { size, pixels, .. } = read_picture(file, &PictureLimits::default())
-            .map_err(|error| format!("{name}: the picture cannot be read: {error}; write it as {FORMATS}"))?;
+            .map_err(|error| {
+                format!("{name}: the picture cannot be read: {error}; write it as {FORMATS}")
+            })?;
         let pixels: Vec<[f64; 3]> = match pixels {
             Pixels::Srgb(pixels) => {
-                let light: Vec<f64> = (0..=255).map(|level| srgb_decode(f64::from(level) / 255.0)).collect();
+                let light: Vec<f64> =
+                    (0..=255).map(|level| srgb_decode(f64::from(level) / 255.0)).collect();
                 let over_black = |[red, green, blue, alpha]: [u8; 4]| {
-                    [red, green, blue].map(|level| light[usize::from(level)] * f64::from(alpha) / 255.0)
+                    [red, green, blue]
+                        .map(|level| light[usize::from(level)] * f64::from(alpha) / 255.0)
                 };
                 pixels.into_iter().map(over_black).collect()
             }
@@ -183,15 +187,22 @@ mod tests {
 
     #[test]
     fn differences_are_in_linear_light_relative_to_the_brightest() {
-        let found = compare(&pfm(&[[0.0; 3], [3.0, 0.0, 0.0]]), &pfm(&[[0.02, 0.0, 0.0], [4.0, 0.0, 0.0]]));
+        let found =
+            compare(&pfm(&[[0.0; 3], [3.0, 0.0, 0.0]]), &pfm(&[[0.02, 0.0, 0.0], [4.0, 0.0, 0.0]]));
         let found = found.unwrap();
         assert_eq!((found.largest, found.place, found.n_different), (0.25, [1, 0], 1));
         assert_eq!(found.light, [[3.0, 0.0, 0.0], [4.0, 0.0, 0.0]]);
         assert!((found.mean - 0.1275).abs() < 1e-7, "{}", found.mean);
         assert_eq!(found.share(), 0.5);
         let text = found.to_string();
-        assert!(text.contains("at column 1, row 0: 3.000000 0.000000 0.000000 instead of 4.0"), "{text}");
-        assert!(text.ends_with("pixels that differ by more than 0.01: 1 of 2, 50.0000 %\n"), "{text}");
+        assert!(
+            text.contains("at column 1, row 0: 3.000000 0.000000 0.000000 instead of 4.0"),
+            "{text}"
+        );
+        assert!(
+            text.ends_with("pixels that differ by more than 0.01: 1 of 2, 50.0000 %\n"),
+            "{text}"
+        );
     }
 
     #[test]
@@ -224,7 +235,9 @@ mod tests {
             refused(b"\xff\xd8\xff\xe0"),
             "mine: a JPEG cannot be scored: its compression changes the pixels; write the picture as PNG, EXR, HDR or PFM"
         );
-        assert!(refused(b"GIF89a").starts_with("mine: the picture cannot be read: it is a GIF picture"));
+        assert!(
+            refused(b"GIF89a").starts_with("mine: the picture cannot be read: it is a GIF picture")
+        );
         assert_eq!(
             refused(&pfm(&[[f32::NAN, 0.0, 0.0]])),
             "mine: the light at column 0, row 0 is infinite or NaN"

@@ -32,7 +32,8 @@ impl Precision {
         /// Relative tolerance: a program with a mistake may also print rounded numbers.
         const TOLERANCE: f64 = 1e-5;
         let tolerance = TOLERANCE.max(self.tolerance(case));
-        let is_it = |wrong: &[f64]| distance(answer, wrong) <= tolerance.min(0.1 * case.error(wrong));
+        let is_it =
+            |wrong: &[f64]| distance(answer, wrong) <= tolerance.min(0.1 * case.error(wrong));
         let found = case.mistakes.iter().filter(|(_, wrong)| is_it(wrong));
         let mut names: Vec<&str> = found.map(|(name, _)| name.as_str()).collect();
         names.dedup();
@@ -74,7 +75,10 @@ mod tests {
             let case = cases().find(|case| case.question().ends_with(question)).expect(question);
             let expected = condition / f64::from(1 << 21);
             let tolerance = Precision::Single.tolerance(case);
-            assert!((tolerance / expected - 1.0).abs() < 1e-3, "{question}: {tolerance:e}, {expected:e}");
+            assert!(
+                (tolerance / expected - 1.0).abs() < 1e-3,
+                "{question}: {tolerance:e}, {expected:e}"
+            );
         }
     }
 

@@ -19,7 +19,8 @@ pub type Answers = BTreeMap<String, Vec<f64>>;
 /// # Errors
 /// A word is not a number, or an id is unknown or repeated: line and column, the word, and why.
 pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, String> {
-    let is_known = |id: &str| topics.iter().flat_map(|topic| &topic.cases).any(|case| case.id == id);
+    let is_known =
+        |id: &str| topics.iter().flat_map(|topic| &topic.cases).any(|case| case.id == id);
     let mut answers = Answers::new();
     for (row, line) in text.lines().enumerate() {
         let bad = |word: &str, what: &str| {
@@ -29,7 +30,10 @@ pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, String> {
         let mut words = line.split_ascii_whitespace();
         let Some(id) = words.next().filter(|word| !word.starts_with('#')) else { continue };
         if !is_known(id) {
-            return Err(bad(id, "is not the id of a question; `ugconformance questions` lists them"));
+            return Err(bad(
+                id,
+                "is not the id of a question; `ugconformance questions` lists them",
+            ));
         }
         let mut values = Vec::new();
         for word in words.filter(|&word| word != "-") {
@@ -133,7 +137,8 @@ impl fmt::Display for Scorecard<'_> {
         writeln!(f, "topic  passed  failed  unanswered  worst error  about")?;
         for row in &self.rows {
             // In units of the tolerance: up to 1 is correct.
-            let worst = if row.passed + row.failed == 0 { "-".to_string() } else { short(row.worst) };
+            let worst =
+                if row.passed + row.failed == 0 { "-".to_string() } else { short(row.worst) };
             writeln!(
                 f,
                 "{:5}  {:6}  {:6}  {:10}  {worst:>11}  {}",

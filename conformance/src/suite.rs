@@ -133,7 +133,9 @@ fn case(line: &str) -> Result<Case, String> {
 }
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
-    text.split(' ').map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
+    text.split(' ')
+        .map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()))
+        .collect()
 }
 
 impl Case {
@@ -187,13 +189,19 @@ mod tests {
 
     #[test]
     fn invalid_files_are_refused() {
-        let refused = |text: &str| topic(text).unwrap_err().split(" in `").next().unwrap().to_owned();
+        let refused =
+            |text: &str| topic(text).unwrap_err().split(" in `").next().unwrap().to_owned();
         assert_eq!(refused(""), "the first line is not `# T01 title`");
         assert_eq!(refused("# T01 a title\n"), "no cases, or cases of another topic");
         assert_eq!(refused("# T01 a title\nT01.1\tgamma 0\n"), "not six columns");
-        assert!(single_tolerances("T01.01 gamma 0\tx").unwrap_err().starts_with("not a question and a"));
+        assert!(
+            single_tolerances("T01.01 gamma 0\tx").unwrap_err().starts_with("not a question and a")
+        );
         assert_eq!(refused("# T01 a title\nT01.1\tgamma 0\tx\t0\t-\tme\n"), "not numbers");
-        assert_eq!(refused("# T01 a title\nT01.1\tgamma 0\t1\t0\tM1\tme\n"), "a mistake is `M1: numbers`");
+        assert_eq!(
+            refused("# T01 a title\nT01.1\tgamma 0\t1\t0\tM1\tme\n"),
+            "a mistake is `M1: numbers`"
+        );
         assert_eq!(
             refused("# T01 a title\nT01.1\tgamma z\t1\t0\t-\tme\n"),
             "no answer, no numbers or no source"

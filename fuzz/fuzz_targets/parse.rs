@@ -9,8 +9,12 @@ libfuzzer_sys::fuzz_target!(|text: &[u8]| {
     // The length of the input selects the options. Rendering of diagnostics takes most of the time,
     // so it is done for two of eight lengths, once with and once without colour.
     let keeps_rounds = text.len() % 5 > 1;
-    let options =
-        Options { lax: text.len() % 2 == 0, execute: text.len() % 3 > 0, keeps_rounds, limits: limits() };
+    let options = Options {
+        lax: text.len() % 2 == 0,
+        execute: text.len() % 3 > 0,
+        keeps_rounds,
+        limits: limits(),
+    };
     let messages = read(text, &options).unwrap_or_else(|findings| findings);
     if text.len() % 8 < 2 {
         std::hint::black_box(messages.render(text.len() % 2 == 0));
@@ -39,7 +43,11 @@ fn load(request: &Request<'_>) -> Result<Vec<u8>, RequestError> {
 
 /// Small limits, because large scenes take long and reach no further code.
 fn limits() -> Limits {
-    let small =
-        [(Limit::Statements, 1000), (Limit::Corners, 4000), (Limit::Names, 1 << 16), (Limit::Files, 20)];
+    let small = [
+        (Limit::Statements, 1000),
+        (Limit::Corners, 4000),
+        (Limit::Names, 1 << 16),
+        (Limit::Files, 20),
+    ];
     small.into_iter().fold(Limits::default(), |limits, (limit, value)| limits.with(limit, value))
 }

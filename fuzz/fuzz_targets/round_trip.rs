@@ -19,5 +19,8 @@ libfuzzer_sys::fuzz_target!(|text: &[u8]| {
 
 /// Small limits, because large scenes take long and reach no further code.
 fn limits() -> Limits {
-    Limits::default().with(Limit::Statements, 1000).with(Limit::Corners, 4000).with(Limit::Names, 1 << 16)
+    Limits::default()
+        .with(Limit::Statements, 1000)
+        .with(Limit::Corners, 4000)
+        .with(Limit::Names, 1 << 16)
 }

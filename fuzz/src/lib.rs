@@ -47,7 +47,10 @@ pub fn mutate(file: File, bytes: &mut [u8], size: usize, seed: u32) -> usize {
 macro_rules! target {
     ($file:expr) => {
         libfuzzer_sys::fuzz_target!(|bytes: &[u8]| $crate::check($file, bytes));
-        libfuzzer_sys::fuzz_mutator!(|bytes: &mut [u8], size: usize, max_size: usize, seed: u32| {
+        libfuzzer_sys::fuzz_mutator!(|bytes: &mut [u8],
+                                      size: usize,
+                                      max_size: usize,
+                                      seed: u32| {
             $crate::mutate($file, &mut bytes[..max_size], size, seed)
         });
     };

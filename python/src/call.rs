@@ -86,7 +86,9 @@ pub fn run<T: Send>(
             };
             let worker = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, compute)?;
             let mut outcome = Ok(());
-            while outcome.is_ok() && ended.recv_timeout(POLL) == Err(mpsc::RecvTimeoutError::Timeout) {
+            while outcome.is_ok()
+                && ended.recv_timeout(POLL) == Err(mpsc::RecvTimeoutError::Timeout)
+            {
                 outcome = call.poll(progress.as_ref());
             }
             // The last report, which is the first one of a short computation.

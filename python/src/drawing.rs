@@ -153,13 +153,17 @@ impl Drawing {
         let mut words: Vec<String> = notes.iter().flat_map(Note::words).collect();
         if notes.iter().filter_map(Note::of_picture).any(ugpicture::Note::is_of_empty) {
             words.extend(
-                when_in_view(&pipe, subject).map(|when| format!("what moves is in it with -ti {when}")),
+                when_in_view(&pipe, subject)
+                    .map(|when| format!("what moves is in it with -ti {when}")),
             );
         }
         Ok(Self { rendering, notes: words, line })
     }
 
     fn linear(&self) -> PyResult<LinearFrame> {
-        self.rendering.clone().into_light().ok_or_else(|| wrong("the picture holds no linear light"))
+        self.rendering
+            .clone()
+            .into_light()
+            .ok_or_else(|| wrong("the picture holds no linear light"))
     }
 }

@@ -40,7 +40,8 @@ impl Refused {
             Self::Failure(failure) => exception(py, &failure.to_string(), None, None),
             Self::Scene(findings) => {
                 let findings = findings.worded();
-                let place = findings.locations().into_iter().next().map(|at| (at.file, at.line, at.column));
+                let place =
+                    findings.locations().into_iter().next().map(|at| (at.file, at.line, at.column));
                 let remedy = findings.list.first().and_then(|first| first.help.clone());
                 exception(py, &findings.render(false), place, remedy)
             }

@@ -64,13 +64,21 @@ macro_rules! numbers {
 
 fn formula(name: &str) -> Option<Formula> {
     Some(match name {
-        "contracted" => numbers!([3, 3], 3, r => p::contracted(r.vector(), r.velocity()?).to_array()),
-        "seen_position" => numbers!([3, 3], 3, r => p::seen_position(r.vector(), r.velocity()?).to_array()),
+        "contracted" => {
+            numbers!([3, 3], 3, r => p::contracted(r.vector(), r.velocity()?).to_array())
+        }
+        "seen_position" => {
+            numbers!([3, 3], 3, r => p::seen_position(r.vector(), r.velocity()?).to_array())
+        }
         "emission_time" => number!([3, 3], r => p::seen_event(r.vector(), r.velocity()?).t),
-        "rest_position" => numbers!([3, 3], 3, r => p::rest_position(r.vector(), r.velocity()?).to_array()),
+        "rest_position" => {
+            numbers!([3, 3], 3, r => p::rest_position(r.vector(), r.velocity()?).to_array())
+        }
         "aberrate" => numbers!([3, 3], 3, r => p::aberrate(r.vector(), r.velocity()?).to_array()),
         "doppler_factor" => number!([3, 3], r => p::doppler_factor(r.vector(), r.velocity()?)),
-        "compose" => numbers!([3, 3], 3, r => p::compose(r.velocity()?, r.velocity()?).beta().to_array()),
+        "compose" => {
+            numbers!([3, 3], 3, r => p::compose(r.velocity()?, r.velocity()?).beta().to_array())
+        }
         "wigner_rotation" => {
             numbers!([3, 3], 4, r => p::wigner_rotation(r.velocity()?, r.velocity()?).to_array())
         }
@@ -137,7 +145,8 @@ pub fn physics<'py>(
     name: &str,
     arguments: Vec<PyReadonlyArray2<'py, f64>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let (widths, n_out, compute) = formula(name).ok_or_else(|| wrong(format!("no formula `{name}`")))?;
+    let (widths, n_out, compute) =
+        formula(name).ok_or_else(|| wrong(format!("no formula `{name}`")))?;
     let n_rows = arguments.first().map_or(0, |array| array.shape()[0]);
     let shapes = arguments.iter().map(|array| array.shape());
     if !shapes.eq(widths.iter().map(|&width| [n_rows, width])) {

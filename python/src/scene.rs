@@ -97,13 +97,19 @@ impl PyScene {
 
     /// The scene as text.
     fn text<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let text = call::run(py, None, |_| ugparse::write_with(&self.parsed.scene, &self.parsed.passed_on))?;
+        let text = call::run(py, None, |_| {
+            ugparse::write_with(&self.parsed.scene, &self.parsed.passed_on)
+        })?;
         Ok(PyBytes::new(py, &text))
     }
 
     /// Numbers of vertices, faces and wires.
     fn counts(&self) -> [usize; 3] {
-        [self.parsed.scene.vertices.len(), self.parsed.scene.faces.len(), self.parsed.scene.wires.len()]
+        [
+            self.parsed.scene.vertices.len(),
+            self.parsed.scene.faces.len(),
+            self.parsed.scene.wires.len(),
+        ]
     }
 
     /// True for positions as seen, and for colours as seen.
@@ -120,12 +126,23 @@ impl PyScene {
 
     /// The names of the vertices.
     fn names(&self) -> Vec<&str> {
-        self.parsed.scene.vertices.iter().map(|vertex| self.parsed.scene.names.get(vertex.name)).collect()
+        self.parsed
+            .scene
+            .vertices
+            .iter()
+            .map(|vertex| self.parsed.scene.names.get(vertex.name))
+            .collect()
     }
 
     /// The positions of the vertices, (n, 3).
     fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self.parsed.scene.vertices.iter().flat_map(|vertex| vertex.position.to_array()).collect();
+        let rows = self
+            .parsed
+            .scene
+            .vertices
+            .iter()
+            .flat_map(|vertex| vertex.position.to_array())
+            .collect();
         table(py, rows, 3)
     }
 
@@ -148,7 +165,8 @@ impl PyScene {
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (scene, time) = (&self.parsed.scene, self.time.unwrap_or(0.0));
-        let rows = call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
+        let rows =
+            call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
         let measured = PyDict::new(py);
         measured.set_item("position", self.vertices(py)?)?;
         let velocities = rows.iter().flat_map(|row| row.velocity.to_array()).collect();
@@ -162,7 +180,11 @@ impl PyScene {
 }
 
 /// Numbers as a table of some columns.
-fn table(py: Python<'_>, numbers: Vec<f64>, n_columns: usize) -> PyResult<Bound<'_, PyArray2<f64>>> {
+fn table(
+    py: Python<'_>,
+    numbers: Vec<f64>,
+    n_columns: usize,
+) -> PyResult<Bound<'_, PyArray2<f64>>> {
     use numpy::PyArrayMethods;
 
     let n_rows = numbers.len() / n_columns;
@@ -177,7 +199,8 @@ impl PyScene {
         let input = pipe::input(&mut context, &options)?;
         let source = pipe::follow(input, &options, &context)?;
         let parsed = ugparse::read(&source, &options, None)?;
-        let warning = ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
+        let warning =
+            ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
         let warning = warning.map(|found| found.worded().render(false));
         let mut notes = call.take_notes();
         notes.extend(notes_on(parsed.warnings.clone()));
@@ -194,12 +217,19 @@ impl PyScene {
         Ok(Arc::new(parsed))
     }
 
-    fn filter(&self, words: &[String], camera: Option<&str>, call: &Arc<Call>) -> Result<Self, Refused> {
+    fn filter(
+        &self,
+        words: &[String],
+        camera: Option<&str>,
+        call: &Arc<Call>,
+    ) -> Result<Self, Refused> {
         let ParsedCommand { program, line, .. } = ParsedCommand::from_words(words)?;
         let at_rest = self.with_camera(camera)?;
         let item = FilmItem::Scene(Box::new(at_rest.scene.clone()));
         let made = program.run(item, &**call).map_err(|error| self.refused(error))?;
-        let Some((FilmItem::Scene(mut scene), told)) = made else { return Err(Refused::of(Error::Subject)) };
+        let Some((FilmItem::Scene(mut scene), told)) = made else {
+            return Err(Refused::of(Error::Subject));
+        };
         scene.head.record(Provenance { command: Some(&line), ..program.provenance() });
         let mut notes: Vec<String> = told.iter().flat_map(Note::words).collect();
         let mut time = self.time;
@@ -207,8 +237,12 @@ impl PyScene {
             time = Some(config.time);
             if ugscene::may_miss_motion(&scene, &config.camera, config.size) {
                 let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
-                let note =
-                    BodyBoxes::new(&at_rest.scene).note(&scene, &config.motion(), &camera, config.size);
+                let note = BodyBoxes::new(&at_rest.scene).note(
+                    &scene,
+                    &config.motion(),
+                    &camera,
+                    config.size,
+                );
                 notes.extend(note.map(|note| note.words()));
             }
         }
@@ -226,10 +260,12 @@ impl PyScene {
     /// The error of a filter, at its place in the text if there is one.
     fn refused(&self, error: ProgramError) -> Refused {
         match error {
-            ProgramError::Lorentz(error) => match error.diagnostics(&self.source, &self.parsed.origins) {
-                Some(findings) => findings.into(),
-                None => Refused::of(error),
-            },
+            ProgramError::Lorentz(error) => {
+                match error.diagnostics(&self.source, &self.parsed.origins) {
+                    Some(findings) => findings.into(),
+                    None => Refused::of(error),
+                }
+            }
             error => Refused::of(error),
         }
     }

@@ -62,7 +62,8 @@ fn moving_lights_cause_a_note() {
     let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));
     assert!(moving.contains("leave out -xc") && moving.contains("ugdoppler -li"), "{moving}");
     // At rest a spectrum is not shifted, so there is no note.
-    let glowing = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
+    let glowing =
+        SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
     assert!(!notes(&glowing).contains("ugdoppler"), "{}", notes(&glowing));
 }
 
@@ -79,7 +80,10 @@ fn channels_tell_of_what_hides_more_than_it_shows() {
         let mut scanned = exact.clone();
         scanned.rainbow.exact = None;
         for pipe in [exact, scanned] {
-            assert!(channels(&pipe, text.as_bytes())["id"].iter().all(|id| *id == first), "{translucency}");
+            assert!(
+                channels(&pipe, text.as_bytes())["id"].iter().all(|id| *id == first),
+                "{translucency}"
+            );
         }
     }
 }

@@ -22,7 +22,12 @@ const SPECTRAL_LIGHT: f64 = 2e-3;
 
 /// A sample may show another face than the oracle's only if that face is equally near, or adjacent
 /// up to rounding.
-fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Option<usize>) -> bool {
+fn is_on_boundary(
+    oracle: &Oracle,
+    camera: &Pinhole,
+    [x, y]: [f64; 2],
+    face: Option<usize>,
+) -> bool {
     const NEXT: f64 = 1e-7;
     let steps = [-NEXT, 0.0, NEXT];
     let around = steps.iter().flat_map(|dx| steps.map(|dy| camera.direction(x + dx, y + dy)));
@@ -39,13 +44,16 @@ fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Opt
 /// differs from the outline in its mean plane.
 fn triangles(mut scene: Scene) -> Scene {
     for face in std::mem::take(&mut scene.faces) {
-        let rings: Vec<Vec<VertexId>> = scene.face_contours(&face).map(<[VertexId]>::to_vec).collect();
-        let positions =
-            |ring: &Vec<VertexId>| ring.iter().map(|id| scene.vertices[id.index()].position).collect();
+        let rings: Vec<Vec<VertexId>> =
+            scene.face_contours(&face).map(<[VertexId]>::to_vec).collect();
+        let positions = |ring: &Vec<VertexId>| {
+            ring.iter().map(|id| scene.vertices[id.index()].position).collect()
+        };
         let positions: Vec<Vec<DVec3>> = rings.iter().map(positions).collect();
         let corners = rings.concat();
-        let is_flat =
-            ugscene::newell_normal(positions[0].iter().copied()).try_normalize().is_some_and(|normal| {
+        let is_flat = ugscene::newell_normal(positions[0].iter().copied())
+            .try_normalize()
+            .is_some_and(|normal| {
                 positions.concat().iter().all(|p| normal.dot(*p - positions[0][0]).abs() < 1e-12)
             });
         if is_flat {
@@ -150,7 +158,8 @@ fn check(case: Case) {
         for (channel, expected) in ["R", "G", "B"].into_iter().zip(light.iter().flatten()) {
             let ours = channels[channel][pixel];
             let off = (ours - expected).abs() / brightest;
-            let bound = if matches!(case.exact, ColorShift::Spectra(_)) { SPECTRAL_LIGHT } else { LIGHT };
+            let bound =
+                if matches!(case.exact, ColorShift::Spectra(_)) { SPECTRAL_LIGHT } else { LIGHT };
             assert!(off < bound, "{name} at {x}, {y}: {channel} {ours}, not {expected}");
         }
         n_lit += usize::from(light.is_some());
@@ -167,26 +176,34 @@ fn ship_is_exact() {
 
 #[test]
 fn cubes_are_exact() {
-    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("cubes", speed * DVec3::new(0.8, -0.6, 0.0))));
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case::in_place("cubes", speed * DVec3::new(0.8, -0.6, 0.0))));
 }
 
 #[test]
 fn street_is_exact() {
     let eye = Some(DVec3::new(0.0, 20.0, 3.0));
-    SPEEDS.into_iter().for_each(|speed| check(Case { eye, ..Case::moving("street", speed * DVec3::NEG_Y) }));
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case { eye, ..Case::moving("street", speed * DVec3::NEG_Y) }));
 }
 
 #[test]
 fn lattice_is_exact() {
     // From the exact centre, many samples would hit edges.
     let eye = Some(DVec3::new(0.013, 0.0, 0.007));
-    SPEEDS.into_iter().for_each(|speed| check(Case { eye, ..Case::moving("lattice", speed * DVec3::NEG_Y) }));
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case { eye, ..Case::moving("lattice", speed * DVec3::NEG_Y) }));
 }
 
 #[test]
 fn spheres_are_exact() {
     SPEEDS.into_iter().for_each(|speed| check(Case::in_place("sphere", speed * DVec3::X)));
-    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("halves", speed * DVec3::new(0.0, 0.6, 0.8))));
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case::in_place("halves", speed * DVec3::new(0.0, 0.6, 0.8))));
 }
 
 #[test]
@@ -197,7 +214,9 @@ fn teapot_is_exact() {
 
 #[test]
 fn grid_is_exact() {
-    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("grid", speed * DVec3::new(0.6, 0.0, 0.8))));
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case::in_place("grid", speed * DVec3::new(0.6, 0.0, 0.8))));
 }
 
 /// Colours are spectra: of surfaces, and in the tunnel of black bodies.
@@ -217,9 +236,9 @@ fn spectra_are_exact() {
 fn tunnel_is_exact() {
     let exact = ColorShift::NONE;
     let eye = Some(DVec3::new(0.012, 0.0, 0.007));
-    SPEEDS
-        .into_iter()
-        .for_each(|speed| check(Case { eye, exact, ..Case::moving("tunnel", speed * DVec3::NEG_Y) }));
+    SPEEDS.into_iter().for_each(|speed| {
+        check(Case { eye, exact, ..Case::moving("tunnel", speed * DVec3::NEG_Y) })
+    });
 }
 
 #[test]

@@ -18,8 +18,9 @@ const TURNING: &str = "c red 1 0; c pane .8 120 .5 .4; c grey .7; l .3; l .7 1 -
 #[test]
 fn bodies_on_world_lines_look_as_the_ray_tracer_draws_them() {
     // Lamps with a motion do not rest with what they light.
-    let of_file =
-        |name| (name, String::from_utf8(scenes::text(name)).unwrap().replace("<0 0 0>", "").into_bytes());
+    let of_file = |name| {
+        (name, String::from_utf8(scenes::text(name)).unwrap().replace("<0 0 0>", "").into_bytes())
+    };
     let files = ["wheels", "twins", "disc", "slalom"].map(of_file);
     let scenes = files.into_iter().chain([("turning", TURNING.as_bytes().to_vec())]);
     for (name, text) in scenes {
@@ -42,7 +43,10 @@ fn bodies_on_world_lines_look_as_the_ray_tracer_draws_them() {
             let n_far = pairs.clone().filter(is_far).count();
             let n_drawn = pairs.filter(|(a, _)| a[..3].iter().any(|light| *light > 1e-3)).count();
             // At edges rounding decides between faces.
-            assert!(n_far * 200 <= n_drawn && n_drawn > 500, "{name}, {shift:?}: {n_far} of {n_drawn}");
+            assert!(
+                n_far * 200 <= n_drawn && n_drawn > 500,
+                "{name}, {shift:?}: {n_far} of {n_drawn}"
+            );
         }
     }
 }

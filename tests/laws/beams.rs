@@ -44,7 +44,12 @@ fn beams_weaken_the_light_of_a_point() {
                 let (sin, cos) = libm::sincos(f64::to_radians(degrees));
                 let axis = cos * leaving + sin * across;
                 let found = level(engine, &area(axis, 1e-3));
-                assert_light(found, cos.max(0.0) * whole, 2e-3, &format!("{engine:?} area {v} {degrees}"));
+                assert_light(
+                    found,
+                    cos.max(0.0) * whole,
+                    2e-3,
+                    &format!("{engine:?} area {v} {degrees}"),
+                );
                 let found = level(engine, &format!("-spot {} 35 20", point(3.0 * axis)));
                 let part = spot_part(degrees, 35.0, 20.0);
                 assert_light(
@@ -77,19 +82,27 @@ fn a_large_area_has_the_irradiance_of_lamberts_formula() {
         let intensity = 0.1;
         let radiance = intensity / (side * side);
         let expected = 0.5 * radiance * (0..4).map(edge).sum::<f64>().abs();
-        let text = format!("c white 1;\n{surface}l {intensity} {} 0 1 {};", point(at), area(-normal, side));
+        let text = format!(
+            "c white 1;\n{surface}l {intensity} {} 0 1 {};",
+            point(at),
+            area(-normal, side)
+        );
         let camera = CameraOptions {
             eye: Some(DVec3::ZERO),
             center: Some(DVec3::X),
             view_angle: Some((1e-5, None)),
             ..CameraOptions::default()
         };
-        let picture = PictureOptions { size: [8, 8], samples: 16, camera, ..PictureOptions::default() };
+        let picture =
+            PictureOptions { size: [8, 8], samples: 16, camera, ..PictureOptions::default() };
         let shift = uglight::ColorShift::hues(false, Brightness::Photon);
         let config = ugphoton::Config { picture, shift, ..ugphoton::Config::default() };
         let frame = ugphoton::light(scenes::parse(text.as_bytes()), &config).unwrap();
         let found = frame.pixels().iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / 64.0;
-        assert!((found / expected - 1.0).abs() < 1e-3, "{distance} {side}: {found}, not {expected}");
+        assert!(
+            (found / expected - 1.0).abs() < 1e-3,
+            "{distance} {side}: {found}, not {expected}"
+        );
         // Nine points are enough if the lamp is not much wider than its distance.
         for engine in &ENGINES[..3] {
             let found = seen(*engine, &text, DVec3::X, Brightness::Photon, false).y;
@@ -129,7 +142,10 @@ fn beams_are_those_of_the_rest_frame_of_the_lamp() {
             let of_area = level(engine, &area(axis, 1e-4));
             let (part, cos) = (spot_part(off, 40.0, 30.0), libm::cos(off.to_radians()).max(0.0));
             n_lit += u32::from(part > 0.0 && part < 1.0);
-            assert!((spot / whole - part).abs() < 2e-3, "{case} {engine:?}: {spot} of {whole}, not {part}");
+            assert!(
+                (spot / whole - part).abs() < 2e-3,
+                "{case} {engine:?}: {spot} of {whole}, not {part}"
+            );
             assert!(
                 (of_area / whole - cos).abs() < 2e-3,
                 "{case} {engine:?}: {of_area} of {whole}, not {cos}"
@@ -166,7 +182,11 @@ fn a_moving_cone_is_aberrated() {
             );
             for engine in WITH_MOVING_LAMPS {
                 let found = seen(engine, &text, DVec3::X, Brightness::Bolometric, false).y;
-                assert_eq!(found > 0.0, degrees < seen_half, "{engine:?} {beta} {degrees} {seen_half}");
+                assert_eq!(
+                    found > 0.0,
+                    degrees < seen_half,
+                    "{engine:?} {beta} {degrees} {seen_half}"
+                );
             }
         }
     }
@@ -175,16 +195,21 @@ fn a_moving_cone_is_aberrated() {
 /// Beams survive the writer, turn and grow with instances, and are checked.
 #[test]
 fn beams_are_statements() {
-    let parse =
-        |text: &str| ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default());
+    let parse = |text: &str| {
+        ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default())
+    };
     let text = "l a 2  0 0 5 0 -spot 0 1 -1 30 5;\nl b 1  0 0 5 0 3 -area 0 1 0 2 0 0 < 0 .5 0 >;";
     let scene = parse(text).unwrap().scene;
     let written = String::from_utf8(ugparse::write(&scene)).unwrap();
-    assert!(written.contains("-spot 0 1 -1 30 5") && written.contains("-area 0 1 0 2 0 0"), "{written}");
+    assert!(
+        written.contains("-spot 0 1 -1 30 5") && written.contains("-area 0 1 0 2 0 0"),
+        "{written}"
+    );
     assert_eq!(parse(&written).unwrap().scene.lights, scene.lights);
     let instance = format!("def d;\n{}\nend;\ni (d -sa 2 -rz 90);", text.replace("< 0 .5 0 >", ""));
     let lights = parse(&instance).unwrap().scene.lights;
-    let ugscene::LightKind::Local { beam: ugscene::Beam::Spot { axis, .. }, .. } = lights[0].kind else {
+    let ugscene::LightKind::Local { beam: ugscene::Beam::Spot { axis, .. }, .. } = lights[0].kind
+    else {
         panic!("{lights:?}")
     };
     assert!(axis.normalize().distance(DVec3::new(-1.0, 0.0, -1.0).normalize()) < 1e-12, "{axis}");
@@ -194,7 +219,10 @@ fn beams_are_statements() {
     assert!(u.distance(-2.0 * DVec3::X) < 1e-12 && v.distance(4.0 * DVec3::Y) < 1e-12, "{u} {v}");
     for (text, expected) in [
         ("l 1 -spot 0 0 1 30 5;", "a spot has a position and a radius"),
-        ("l 1 0 0 5 0 -area 1 0 0 0 1 0;", "an area has a position, a radius and a reference distance"),
+        (
+            "l 1 0 0 5 0 -area 1 0 0 0 1 0;",
+            "an area has a position, a radius and a reference distance",
+        ),
         ("l 1 0 0 5 0 -spot 0 0 0 30 5;", "an axis is not 0"),
         ("l 1 0 0 5 0 -spot 0 0 1 30 31;", "an edge 0 to the angle"),
         ("l 1 0 0 5 0 1 -area 1 0 0 2 0 0;", "edges span an area"),
@@ -229,7 +257,8 @@ fn a_flash_in_glass_is_slowed() {
                 view_angle: Some((1e-5, None)),
                 ..CameraOptions::default()
             };
-            let picture = PictureOptions { size: [1, 1], samples: 1, camera, ..PictureOptions::default() };
+            let picture =
+                PictureOptions { size: [1, 1], samples: 1, camera, ..PictureOptions::default() };
             let motion = ugphoton::MotionOptions { time, ..Default::default() };
             let config = ugphoton::Config { picture, motion, ..ugphoton::Config::default() };
             ugphoton::light(scenes::parse(text.as_bytes()), &config).unwrap().pixels()[0][1] > 0.1

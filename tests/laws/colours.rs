@@ -52,7 +52,8 @@ fn house(colors: &str, own: Option<(&str, &str)>, is_apart: bool) -> String {
     }
     for (corners, color) in FACES {
         let side = if is_apart { color } else { 0 };
-        let corners: Vec<String> = corners.chars().map(|corner| format!("{corner}{side}")).collect();
+        let corners: Vec<String> =
+            corners.chars().map(|corner| format!("{corner}{side}")).collect();
         text += &format!("f ({}) {};\n", corners.join(" "), ["wall", "roof"][color]);
     }
     text
@@ -96,11 +97,12 @@ fn mixtures_do_not_depend_on_how_faces_are_cut() {
     check("own-mixed", &house(&format!("{YELLOW_AND_RED} {own}"), Some(("f", "own")), false), 2);
     check(
         "own-one-colour",
-        &house(&format!("c wall 1 50 .6; {own}"), Some(("f", "own")), false).replace(" roof;", " wall;"),
+        &house(&format!("c wall 1 50 .6; {own}"), Some(("f", "own")), false)
+            .replace(" roof;", " wall;"),
         2,
     );
-    let wires =
-        house(&format!("{YELLOW_AND_RED} {own}"), None, false) + "w (a0 e0 f0 j0) own; w (i0 j0) own;";
+    let wires = house(&format!("{YELLOW_AND_RED} {own}"), None, false)
+        + "w (a0 e0 f0 j0) own; w (i0 j0) own;";
     check("wires", &wires, 2);
 }
 
@@ -108,7 +110,9 @@ fn mixtures_do_not_depend_on_how_faces_are_cut() {
 fn colours_are_kept_apart_by_every_program_alike() {
     let shared = house(YELLOW_AND_RED, None, false);
     let apart = house(YELLOW_AND_RED, None, true);
-    for (beta, pieces) in [(0.0, Pieces::PerEdge(3)), (0.9, Pieces::UpTo(1e-4)), (0.2, Pieces::PerEdge(1))] {
+    for (beta, pieces) in
+        [(0.0, Pieces::PerEdge(3)), (0.9, Pieces::UpTo(1e-4)), (0.2, Pieces::PerEdge(1))]
+    {
         let plain = pipe(beta, pieces);
         let mut repeating = plain.clone();
         repeating.rainbow.repeat = true;
@@ -121,7 +125,8 @@ fn colours_are_kept_apart_by_every_program_alike() {
         let first = lorentz(shared.as_bytes(), &repeating.lorentz);
         assert_same("apart-first", &expected, &decode(&rainbow(&first, &plain.rainbow)), 0);
 
-        let colored = |text: &[u8], config| decode(&rainbow(&doppler(text, config), &plain.rainbow));
+        let colored =
+            |text: &[u8], config| decode(&rainbow(&doppler(text, config), &plain.rainbow));
         let expected = colored(&lorentz(apart.as_bytes(), &plain.lorentz), &plain.doppler);
         repeating.doppler.repeat = true;
         assert_same("apart-coloured", &expected, &colored(&seen, &repeating.doppler), 0);

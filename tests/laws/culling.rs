@@ -118,7 +118,8 @@ fn teaching_switches_are_culled_right() {
             pieces: uglorentz::Pieces::PerEdge(2),
             ..Default::default()
         };
-        n_culled += culled(&format!("teaching-{contraction}-{flight_time}"), "street", &pipe(lorentz));
+        n_culled +=
+            culled(&format!("teaching-{contraction}-{flight_time}"), "street", &pipe(lorentz));
     }
     assert!(n_culled > 500, "{n_culled}");
 }
@@ -126,9 +127,11 @@ fn teaching_switches_are_culled_right() {
 /// The camera looks at the middle of a large face, whose corners and edges are outside the picture.
 #[test]
 fn large_faces_are_not_lost() {
-    let tile = b"v a -9 2 -9; v b 9 2 -9; v c 9 2 9; v d -9 2 9; f (a b c d); l 1; cam -vc 0 1 0 -va 2 2;";
+    let tile =
+        b"v a -9 2 -9; v b 9 2 -9; v c 9 2 9; v d -9 2 9; f (a b c d); l 1; cam -vc 0 1 0 -va 2 2;";
     for speed in [-0.9, 0.0, 0.9] {
-        let mut pipe = pipe(uglorentz::Config { velocity: Some(DVec3::Y * speed), ..Default::default() });
+        let mut pipe =
+            pipe(uglorentz::Config { velocity: Some(DVec3::Y * speed), ..Default::default() });
         (pipe.lorentz.size, pipe.lorentz.cull) = (SIZE, true);
         let picture = pipe.shape().draw(tile);
         assert!(picture.pixels().all(|pixel| pixel.0[0] > 0), "{speed}");

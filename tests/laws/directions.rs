@@ -43,10 +43,12 @@ fn picture() -> PictureOptions {
 }
 
 fn directions(frame: &LinearFrame) -> Vec<DVec3> {
-    let axis = |name: &str| match &frame.planes().iter().find(|plane| plane.name == name).unwrap().samples {
-        Samples::Float(numbers) => numbers.clone(),
-        Samples::Whole(_) => panic!("directions are not whole numbers"),
-    };
+    let axis =
+        |name: &str| match &frame.planes().iter().find(|plane| plane.name == name).unwrap().samples
+        {
+            Samples::Float(numbers) => numbers.clone(),
+            Samples::Whole(_) => panic!("directions are not whole numbers"),
+        };
     let [x, y, z] = ["direction.X", "direction.Y", "direction.Z"].map(axis);
     let point = |at: usize| DVec3::new(x[at].into(), y[at].into(), z[at].into());
     (0..x.len()).map(point).collect()
@@ -67,8 +69,9 @@ fn directions_are_in_the_axes_of_the_scene() {
             .map(|at| (rest_from_camera * of_sample(at).extend(-1.0)).truncate().normalize())
             .collect();
 
-        let seen =
-            |pieces| lorentz(text.as_bytes(), &uglorentz::Config { pieces, ..uglorentz::Config::default() });
+        let seen = |pieces| {
+            lorentz(text.as_bytes(), &uglorentz::Config { pieces, ..uglorentz::Config::default() })
+        };
         let fine = seen(uglorentz::Config::default().pieces);
         let whole = seen(uglorentz::Pieces::PerEdge(1));
         let scanned = ugrainbow::Config { picture: picture(), ..ugrainbow::Config::default() };
@@ -80,20 +83,27 @@ fn directions_are_in_the_axes_of_the_scene() {
             ("ugphoton", ugphoton::light(parse(text.as_bytes()), &rays).unwrap()),
         ];
         for (program, frame) in found {
-            for (at, (found, &expected)) in directions(&frame).into_iter().zip(&expected).enumerate() {
+            for (at, (found, &expected)) in
+                directions(&frame).into_iter().zip(&expected).enumerate()
+            {
                 let off = found.distance(expected);
-                assert!(off < SINGLE, "{program}, {body} from {camera}, pixel {at}: {found} for {expected}");
+                assert!(
+                    off < SINGLE,
+                    "{program}, {body} from {camera}, pixel {at}: {found} for {expected}"
+                );
             }
         }
 
-        let by_pipe =
-            ugrainbow::explain::explain(&scanned, &Source::new("t.ug", &fine[..]), PIXEL).unwrap().0;
-        let by_rays = ugphoton::explain(&rays, &Source::new("t.ug", text.as_str()), PIXEL).unwrap().0;
+        let by_pipe = ugrainbow::explain::explain(&scanned, &Source::new("t.ug", &fine[..]), PIXEL)
+            .unwrap()
+            .0;
+        let by_rays =
+            ugphoton::explain(&rays, &Source::new("t.ug", text.as_str()), PIXEL).unwrap().0;
         let by_pipe = by_pipe.sample.unwrap().own.surface;
         let by_rays = by_rays.sample.unwrap().own.surfaces.remove(0).surface;
         for (program, surface) in [("ugrainbow", by_pipe), ("ugphoton", by_rays)] {
-            let [seen, rest] =
-                [surface.emission, surface.emission_at_rest].map(|event| DVec3::from_array(event.x));
+            let [seen, rest] = [surface.emission, surface.emission_at_rest]
+                .map(|event| DVec3::from_array(event.x));
             let event = rest_from_camera * seen.extend(surface.emission.t.unwrap());
             let off = rest.distance(event.truncate()) / rest.length();
             assert!(off < 1e-6, "{program} --explain, {body} from {camera}: {rest} for {event}");

@@ -49,7 +49,10 @@ fn compared(one: &Picture, other: &Picture) -> (usize, usize) {
 fn edges() -> Config {
     let white = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
     Config {
-        picture: ugrainbow::PictureOptions { size: [240, 180], ..ugrainbow::PictureOptions::default() },
+        picture: ugrainbow::PictureOptions {
+            size: [240, 180],
+            ..ugrainbow::PictureOptions::default()
+        },
         wireframe: Some(Wireframe { has_faces: false, color: Some(white), ..Wireframe::default() }),
         line_width: 2.0,
         ..Config::default()
@@ -79,16 +82,21 @@ fn the_silhouette_of_a_moving_sphere_is_a_circle() {
     /// The polygons of the sphere span 7.5 degrees, of which one minus the cosine is 0.0086.
     const MOST_OFF: f64 = 0.02;
     for beta in [DVec3::ZERO, 0.9 * DVec3::X, DVec3::new(0.5, 0.6, -0.5), 0.99 * DVec3::NEG_X] {
-        let moved =
-            uglorentz::Config { velocity: Some(beta), in_place: true, ..uglorentz::Config::default() };
+        let moved = uglorentz::Config {
+            velocity: Some(beta),
+            in_place: true,
+            ..uglorentz::Config::default()
+        };
         let mut config = edges();
         config.picture.size = [SIDE; 2];
         config.picture.camera.view_angle = Some((40.0, Some(40.0)));
         config.picture.output = ugrainbow::Output::Vector(ugimage::Format::Svg);
-        config.wireframe =
-            config.wireframe.map(|lines| Wireframe { edges: ugrainbow::EdgeKind::Silhouette, ..lines });
+        config.wireframe = config
+            .wireframe
+            .map(|lines| Wireframe { edges: ugrainbow::EdgeKind::Silhouette, ..lines });
         config.line_width = 0.1;
-        let figure = String::from_utf8(rainbow(&lorentz(&scenes::text("sphere"), &moved), &config)).unwrap();
+        let figure =
+            String::from_utf8(rainbow(&lorentz(&scenes::text("sphere"), &moved), &config)).unwrap();
         let ends = figure.split("d=\"M").skip(1).flat_map(|path| {
             let numbers = path.split('"').next().unwrap().split(['L', ' ']);
             let numbers: Vec<f64> = numbers.map(|number| number.parse().unwrap()).collect();

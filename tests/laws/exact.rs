@@ -94,8 +94,12 @@ fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
         let text = format!("c green 0.1 120 1; {text}");
         // Vertices are where they are however edges are divided.
         let pieces = uglorentz::Pieces::PerEdge(1);
-        let lorentz =
-            uglorentz::Config { velocity: Some(beta), eye: Some(eye), pieces, ..Default::default() };
+        let lorentz = uglorentz::Config {
+            velocity: Some(beta),
+            eye: Some(eye),
+            pieces,
+            ..Default::default()
+        };
         let seen = pipe::lorentz(text.as_bytes(), &lorentz);
         let doppler = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
         let scene = parse(&pipe::doppler(&seen, &doppler));
@@ -113,13 +117,19 @@ fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
             };
             let ratio = big(GREEN_NM) / big(wavelength_nm);
             let shift = number(&(ratio / motion.doppler(&place) - big(1.0))).abs();
-            assert!(shift < TOLERANCE, "{name} at {:?}, {speed} c: D is off by {shift:e}", points[&name]);
+            assert!(
+                shift < TOLERANCE,
+                "{name} at {:?}, {speed} c: D is off by {shift:e}",
+                points[&name]
+            );
 
             n_vertices += 1;
             worst_place = worst_place.max(off);
             worst_doppler = worst_doppler.max(shift);
         }
     }
-    println!("{n_vertices} vertices: places within {worst_place:.1e}, D within {worst_doppler:.1e}");
+    println!(
+        "{n_vertices} vertices: places within {worst_place:.1e}, D within {worst_doppler:.1e}"
+    );
     assert!(n_vertices > 400);
 }

@@ -17,8 +17,14 @@ pub fn point(p: DVec3) -> String {
 pub fn boost(v: DVec3) -> DMat4 {
     let speed = v.length();
     let (gamma, axis) = (1.0 / (1.0 - speed * speed).sqrt(), v / speed);
-    let column = |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::from((gamma * v, gamma)))
+    let column =
+        |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));
+    DMat4::from_cols(
+        column(DVec3::X),
+        column(DVec3::Y),
+        column(DVec3::Z),
+        DVec4::from((gamma * v, gamma)),
+    )
 }
 
 /// A lamp that rests with what it lights: the level is intensity · r₀²/r² · cos, whatever the
@@ -33,7 +39,11 @@ fn light_falls_with_the_square_of_the_distance() {
         let level = |engine, distance: f64, degrees: f64, rest: &str| {
             let (sin, cos) = (libm::sin(degrees.to_radians()), libm::cos(degrees.to_radians()));
             let lamp = at + distance * (cos * normal + sin * aside);
-            let text = format!("c own 0.5;\n{}l 0.6 {} {rest};", square(v, toward, None, "own"), point(lamp));
+            let text = format!(
+                "c own 0.5;\n{}l 0.6 {} {rest};",
+                square(v, toward, None, "own"),
+                point(lamp)
+            );
             seen(engine, &text, toward, Brightness::Photon, false)
         };
         for engine in ENGINES {
@@ -45,7 +55,12 @@ fn light_falls_with_the_square_of_the_distance() {
                 let expected = ratio * ratio * libm::cos(f64::to_radians(degrees)) * unit;
                 let found = level(engine, distance, degrees, &format!("0 {reference}"));
                 // The square has a half side of a thousandth.
-                assert_light(found, expected, 1e-4, &format!("{engine:?} {v} {distance} {degrees}"));
+                assert_light(
+                    found,
+                    expected,
+                    1e-4,
+                    &format!("{engine:?} {v} {distance} {degrees}"),
+                );
             }
             // Not above the light at the surface of the lamp.
             let within = level(engine, 0.2, 0.0, "0.5 1");
@@ -61,14 +76,21 @@ fn light_falls_with_the_square_of_the_distance() {
 fn highlights_fall_with_the_square_of_the_distance() {
     let light = |distance: f64, rest: &str| {
         let surface = square(DVec3::ZERO, DVec3::X, None, "white shiny");
-        let text =
-            format!("c white 1; surf shiny 0 1 0 1 5;\n{surface}l 0.6 {:?} 0 0 {rest};", 9.0 - distance);
+        let text = format!(
+            "c white 1; surf shiny 0 1 0 1 5;\n{surface}l 0.6 {:?} 0 0 {rest};",
+            9.0 - distance
+        );
         seen(Engine::Rays, &text, DVec3::X, Brightness::Photon, false)
     };
     let unit = light(3.0, "0");
     assert!(unit.max_element() > 0.1, "{unit}");
     for distance in [0.5, 4.0] {
-        assert_light(light(distance, "0 2"), 4.0 / (distance * distance) * unit, 1e-4, "a highlight");
+        assert_light(
+            light(distance, "0 2"),
+            4.0 / (distance * distance) * unit,
+            1e-4,
+            "a highlight",
+        );
     }
 }
 
@@ -132,8 +154,17 @@ fn any_lamp_has_the_irradiance_of_p14() {
     for case in 0..40 {
         let moving = MovingLamp::random(&mut random);
         let lamp = moving.lamp();
-        let MovingLamp { v, v_lamp, toward, at, to_lamp, distance, scatter, emission, lamp_from_surface } =
-            moving;
+        let MovingLamp {
+            v,
+            v_lamp,
+            toward,
+            at,
+            to_lamp,
+            distance,
+            scatter,
+            emission,
+            lamp_from_surface,
+        } = moving;
         let rest_distance = (lamp_from_surface * (emission - scatter)).truncate().length();
         let (d_lamp, d) = (distance / rest_distance, (boost(v) * scatter).w.abs() / at.length());
         let cos = to_lamp.dot(-at.normalize());
@@ -148,7 +179,10 @@ fn any_lamp_has_the_irradiance_of_p14() {
         for engine in WITH_MOVING_LAMPS {
             let found = seen(engine, &text, toward, Brightness::Bolometric, false).y;
             // The square has a half side of a thousandth, and the lamp may be as near as 0.5.
-            assert!((found / expected - 1.0).abs() < 1e-4, "{case} {engine:?}: {found}, not {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < 1e-4,
+                "{case} {engine:?}: {found}, not {expected}"
+            );
         }
     }
 }

@@ -18,7 +18,9 @@ const SIZE: [u32; 2] = [240, 180];
 fn places(beta: DVec3) -> Vec<[f64; 2]> {
     let pipe = Pipe::new(beta, SIZE).in_place();
     let seen = scenes::parse(&pipe.run(BOX.as_bytes()).seen);
-    let find = |name: &str| seen.vertices.iter().find(|vertex| seen.names.get(vertex.name) == name).unwrap();
+    let find = |name: &str| {
+        seen.vertices.iter().find(|vertex| seen.names.get(vertex.name) == name).unwrap()
+    };
     let eye = DVec3::new(0.0, -9.0, 3.0);
     let forward = (DVec3::new(0.0, 0.0, 0.5) - eye).normalize();
     let right = forward.cross(DVec3::Z).normalize();
@@ -36,9 +38,11 @@ fn arrows_end_at_their_vertices_in_the_pipe_and_in_ray_traced_pictures() {
     let text = format!("{BOX}{LABELS}");
     for beta in [DVec3::ZERO, DVec3::new(0.7, 0.0, 0.0), DVec3::new(-0.3, 0.8, 0.1)] {
         let pipe = Pipe::new(beta, SIZE).in_place();
-        let motion = MotionOptions { velocity: Some(beta), in_place: true, ..MotionOptions::default() };
+        let motion =
+            MotionOptions { velocity: Some(beta), in_place: true, ..MotionOptions::default() };
         let rays = |text: &str| {
-            let mut config = ugphoton::Config { motion: motion.clone(), ..ugphoton::Config::default() };
+            let mut config =
+                ugphoton::Config { motion: motion.clone(), ..ugphoton::Config::default() };
             (config.picture.size, config.picture.samples) = (SIZE, 1);
             ugphoton::render(scenes::parse(text.as_bytes()), &config).unwrap().into_frame().unwrap()
         };
@@ -62,7 +66,11 @@ fn arrows_end_at_their_vertices_in_the_pipe_and_in_ray_traced_pictures() {
         });
         let n_shared = pipe.iter().filter(|pixel| rays.contains(pixel)).count();
         assert!(pipe.len() > 300, "{}", pipe.len());
-        assert!(n_shared * 20 > pipe.len().max(rays.len()) * 17, "{beta}: {n_shared} of {}", pipe.len());
+        assert!(
+            n_shared * 20 > pipe.len().max(rays.len()) * 17,
+            "{beta}: {n_shared} of {}",
+            pipe.len()
+        );
     }
 }
 
@@ -98,7 +106,8 @@ fn labels_of_hidden_vertices_are_left_out() {
                 *is_seen.entry(name).or_insert(false) |= is_front;
             }
         }
-        let hidden: Vec<_> = "abcdefgh".chars().filter(|name| !is_seen[&name.to_string()]).collect();
+        let hidden: Vec<_> =
+            "abcdefgh".chars().filter(|name| !is_seen[&name.to_string()]).collect();
         assert!((1..4).contains(&hidden.len()), "{beta}: {hidden:?}");
         for name in "abcdefgh".chars() {
             let text = format!("{BOX} label \"here\" {name};");

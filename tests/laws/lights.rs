@@ -45,7 +45,12 @@ fn lighting_at_rest_equals_that_of_ugrainbow() {
     let check = |name: &str, text: &[u8], levels: u8| {
         let expected = decode(&rainbow(text, &pipe.rainbow));
         let baked = doppler(text, &lit());
-        assert_same(&format!("lights-{name}"), &expected, &decode(&rainbow(&baked, &pipe.rainbow)), levels);
+        assert_same(
+            &format!("lights-{name}"),
+            &expected,
+            &decode(&rainbow(&baked, &pipe.rainbow)),
+            levels,
+        );
     };
     for name in ["cubes", "teapot", "ship", "street", "halves"] {
         check(name, &scenes::text(name), 1);
@@ -63,7 +68,8 @@ fn light_at_rest_in_a_moving_body_moves_along() {
         let seen = |lights: &str| {
             let pieces = uglorentz::Pieces::PerEdge(4);
             let anchor = Some(uglorentz::Anchor::Eye);
-            let mut config = uglorentz::Config { anchor, time: 0.3, pieces, ..uglorentz::Config::default() };
+            let mut config =
+                uglorentz::Config { anchor, time: 0.3, pieces, ..uglorentz::Config::default() };
             config.velocity = Some(DVec3::from_slice(&beta));
             numbers(&doppler(&lorentz(&room(lights), &config), &lit()))
         };
@@ -102,7 +108,9 @@ fn both_factors_shift_and_dim() {
                 // The iris scales the intensity to 1.
                 assert!((intensity - 1.0).abs() < 1e-12);
                 let dim = Config { iris: false, ..config };
-                let found = wavelength_and_intensity(&scenes::parse(&doppler(text.as_bytes(), &dim)), law).1;
+                let found =
+                    wavelength_and_intensity(&scenes::parse(&doppler(text.as_bytes(), &dim)), law)
+                        .1;
                 let own = if law.acts_on_light() { srgb_decode(0.1) } else { 0.1 };
                 let expected = (0.5 * own * factor).min(1.0);
                 assert!((found - expected).abs() < 1e-9, "{text} {law:?}: {found}, {expected}");
@@ -178,15 +186,19 @@ fn full_daylight_shows_colours_as_they_are() {
         v g 9 -1 -1e-9; v h 9 -1.0001 0; v i 9 -1 0; f (g h i) glow <0.4 0 0>;";
     let colors = |light: bool| -> Vec<[f64; 3]> {
         let config = Config { shift: ColorShift::SPECTRA, light, ..lit() };
-        let scene = scenes::parse(&doppler(format!("{SEEN} {text} l 1 -1 0 0;").as_bytes(), &config));
-        let of = |vertex: &ugscene::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
+        let scene =
+            scenes::parse(&doppler(format!("{SEEN} {text} l 1 -1 0 0;").as_bytes(), &config));
+        let of = |vertex: &ugscene::Vertex| match scene.colors
+            [vertex.color.expect("a colour").index()]
+        .value
         {
             ColorValue::Xyz(xyz) => xyz,
             other => panic!("{other:?}"),
         };
         scene.vertices.iter().map(of).collect()
     };
-    for (lit, plain) in colors(true).into_iter().flatten().zip(colors(false).into_iter().flatten()) {
+    for (lit, plain) in colors(true).into_iter().flatten().zip(colors(false).into_iter().flatten())
+    {
         // Reflectances are interpolated between nodes.
         assert!((lit - plain).abs() < 3e-6 * plain, "{lit} {plain}");
     }

@@ -4,8 +4,8 @@
 use glam::DVec3;
 use ugphoton::{CameraOptions, PictureOptions};
 use ugphysics::{
-    Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, seen_position,
-    srgb_decode, wavelength_to_hue,
+    Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position,
+    seen_position, srgb_decode, wavelength_to_hue,
 };
 use ugtests::pipe::{doppler, lorentz};
 use ugtests::scenes;
@@ -52,8 +52,13 @@ pub fn seen(engine: Engine, text: &str, toward: DVec3, law: Brightness, shifts: 
         let exact = (engine == Engine::Exact).then_some(shift);
         let light = engine == Engine::LitPipe;
         let tolerance = 0.0;
-        let config =
-            ugdoppler::Config { shift, keep: true, light, tolerance, ..ugdoppler::Config::default() };
+        let config = ugdoppler::Config {
+            shift,
+            keep: true,
+            light,
+            tolerance,
+            ..ugdoppler::Config::default()
+        };
         let colored = if exact.is_some() { seen } else { doppler(&seen, &config) };
         let config = ugrainbow::Config { picture, exact, ..ugrainbow::Config::default() };
         ugrainbow::light(&scenes::parse(&colored), &config).unwrap()
@@ -82,7 +87,10 @@ pub fn place(v: DVec3, toward: DVec3) -> DVec3 {
 #[track_caller]
 pub fn assert_light(found: DVec3, expected: DVec3, tolerance: f64, what: &str) {
     let size = expected.abs().max_element();
-    assert!((found - expected).abs().max_element() <= tolerance * size, "{what}: {found}, not {expected}");
+    assert!(
+        (found - expected).abs().max_element() <= tolerance * size,
+        "{what}: {found}, not {expected}"
+    );
 }
 
 /// Approaching, receding, at right angles, and in between.
@@ -107,18 +115,25 @@ fn light_is_multiplied_by_a_power_of_d() {
         let factor = doppler_at(toward, Velocity::from_beta(v).unwrap());
         for color in COLORS {
             let Hsv { hue, saturation, value } = color;
-            let text = format!("c own {value} {hue} {saturation};\n{}", square(v, toward, None, "own 1"));
+            let text =
+                format!("c own {value} {hue} {saturation};\n{}", square(v, toward, None, "own 1"));
             for (law, power) in LAWS {
-                for (engine, shifts) in ENGINES.iter().flat_map(|&engine| [(engine, false), (engine, true)]) {
+                for (engine, shifts) in
+                    ENGINES.iter().flat_map(|&engine| [(engine, false), (engine, true)])
+                {
                     let nm = hue_to_wavelength(hue) / if shifts { factor } else { 1.0 };
-                    let shown = Hsv { hue: wavelength_to_hue(nm), ..color }.attenuated(attenuation(nm));
+                    let shown =
+                        Hsv { hue: wavelength_to_hue(nm), ..color }.attenuated(attenuation(nm));
                     let rest = DVec3::from_array(shown.to_rgb().map(srgb_decode));
                     let what = format!("{engine:?} {law:?} {color:?} at {v}, {shifts}");
                     let found = seen(engine, &text, toward, law, shifts);
                     // Near the ends of the visible range the pipe's attenuation is a table.
                     let expected = libm::pow(factor, f64::from(power)) * rest;
                     let off = (found - expected).abs().max_element();
-                    assert!(off < 1e-4 * expected.max_element() + 1e-6, "{what}: {found}, not {expected}");
+                    assert!(
+                        off < 1e-4 * expected.max_element() + 1e-6,
+                        "{what}: {found}, not {expected}"
+                    );
                 }
             }
         }
@@ -137,10 +152,17 @@ fn light_falls_with_the_cosine() {
                 let (sin, cos) = (libm::sin(degrees.to_radians()), libm::cos(degrees.to_radians()));
                 let to = cos * normal + sin * aside;
                 let lamp = format!("l 0.6 {:?} {:?} {:?};", to.x, to.y, to.z);
-                let text = format!("c own 0.5;\n{}\n{lamp}", square(v, toward, Some(normal), "own"));
-                let expected = libm::pow(factor, f64::from(power)) * 0.6 * cos.max(0.0) * srgb_decode(0.5);
+                let text =
+                    format!("c own 0.5;\n{}\n{lamp}", square(v, toward, Some(normal), "own"));
+                let expected =
+                    libm::pow(factor, f64::from(power)) * 0.6 * cos.max(0.0) * srgb_decode(0.5);
                 let found = seen(engine, &text, toward, law, true);
-                assert_light(found, DVec3::splat(expected), 1e-5, &format!("{engine:?} {law:?} {degrees}"));
+                assert_light(
+                    found,
+                    DVec3::splat(expected),
+                    1e-5,
+                    &format!("{engine:?} {law:?} {degrees}"),
+                );
             }
         }
     }

@@ -41,8 +41,10 @@ fn triangles(random: &mut Random, n: usize, color: &str) -> (String, HashMap<Str
 
 /// The vertices with a name in `points`.
 fn named<'s>(scene: &'s Scene, points: &HashMap<String, DVec3>) -> HashMap<String, &'s Vertex> {
-    let vertices = scene.vertices.iter().map(|vertex| (scene.names.get(vertex.name).to_string(), vertex));
-    let found: HashMap<String, &Vertex> = vertices.filter(|(name, _)| points.contains_key(name)).collect();
+    let vertices =
+        scene.vertices.iter().map(|vertex| (scene.names.get(vertex.name).to_string(), vertex));
+    let found: HashMap<String, &Vertex> =
+        vertices.filter(|(name, _)| points.contains_key(name)).collect();
     assert_eq!(found.len(), points.len(), "every vertex keeps its name");
     found
 }

@@ -48,18 +48,23 @@ fn bodies_are_lit_in_the_axes_of_the_scene() {
             camera.y,
             camera.z
         );
-        let mut lorentz = uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+        let mut lorentz =
+            uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
         // The side that is seen is the one at rest.
         lorentz.anchor = Some(uglorentz::Anchor::Eye);
         let seen = pipe::lorentz(text.as_bytes(), &lorentz);
-        let middle = parse(&seen).vertices.iter().map(|vertex| vertex.position).sum::<DVec3>() / 3.0;
+        let middle =
+            parse(&seen).vertices.iter().map(|vertex| vertex.position).sum::<DVec3>() / 3.0;
         let mut pipe = Pipe::default().shape().view_angle(1e-3);
         pipe.lorentz = lorentz;
         pipe.rainbow.picture.camera.center = Some(middle);
         pipe.rainbow.picture.size = [1, 1];
         let pixel = pipe.draw(text.as_bytes()).get_pixel(0, 0).0;
         let expected = 255.0 * level.min(1.0);
-        assert!((f64::from(pixel[0]) - expected).abs() <= 1.0, "case {case}: {pixel:?} for {expected}");
+        assert!(
+            (f64::from(pixel[0]) - expected).abs() <= 1.0,
+            "case {case}: {pixel:?} for {expected}"
+        );
         n_lit += usize::from(level > 0.15);
         let scene = parse(&seen);
         let w = scene.bodies.stated_velocity(scene.faces[0].body).unwrap();

@@ -18,7 +18,9 @@ const SCENE: &str = "{ A room. Copyright of nobody.\n  { Keep this notice. } }\n
 fn the_notice_stays_at_the_head_and_surfaces_on_their_faces() {
     let stages = Pipe::new(DVec3::new(0.0, 0.9, 0.0), [64, 48]).run(SCENE.as_bytes());
     let notice = &SCENE[..SCENE.find("c grey").expect("colours")];
-    for (name, text, programs) in [("uglorentz", &stages.seen, 1), ("ugdoppler", &stages.colored, 2)] {
+    for (name, text, programs) in
+        [("uglorentz", &stages.seen, 1), ("ugdoppler", &stages.colored, 2)]
+    {
         let text = String::from_utf8_lossy(text);
         assert!(text.starts_with(notice), "{name}: {text}");
         let scene = scenes::parse(text.as_bytes());

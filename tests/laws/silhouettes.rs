@@ -24,9 +24,11 @@ struct Torus(Vec<DVec3>);
 
 impl Torus {
     fn new(tube: f64) -> Self {
-        let angle = |step: usize, n: usize| libm::sincos(std::f64::consts::TAU * step as f64 / n as f64);
+        let angle =
+            |step: usize, n: usize| libm::sincos(std::f64::consts::TAU * step as f64 / n as f64);
         let corner = |idx: usize| {
-            let ((sin, cos), (up, out)) = (angle(idx / STEPS[1], STEPS[0]), angle(idx % STEPS[1], STEPS[1]));
+            let ((sin, cos), (up, out)) =
+                (angle(idx / STEPS[1], STEPS[0]), angle(idx % STEPS[1], STEPS[1]));
             let radius = 1.0 + tube * out;
             DVec3::new(radius * cos, radius * sin, tube * up)
         };
@@ -35,12 +37,16 @@ impl Torus {
 
     /// The four corners of a face, counterclockwise as seen from outside.
     fn face(&self, around: usize, tube: usize) -> [usize; 4] {
-        let corner = |i: usize, j: usize| (around + i) % STEPS[0] * STEPS[1] + (tube + j) % STEPS[1];
+        let corner =
+            |i: usize, j: usize| (around + i) % STEPS[0] * STEPS[1] + (tube + j) % STEPS[1];
         [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)]
     }
 
     fn faces(&self) -> Vec<[usize; 4]> {
-        (0..STEPS[0]).flat_map(|i| (0..STEPS[1]).map(move |j| (i, j))).map(|(i, j)| self.face(i, j)).collect()
+        (0..STEPS[0])
+            .flat_map(|i| (0..STEPS[1]).map(move |j| (i, j)))
+            .map(|(i, j)| self.face(i, j))
+            .collect()
     }
 
     fn text(&self, eye: DVec3) -> String {
@@ -71,7 +77,8 @@ impl Torus {
                     (self.face((around + 1) % STEPS[0], tube), [face[1], face[2]]),
                     (self.face(around, (tube + 1) % STEPS[1]), [face[2], face[3]]),
                 ];
-                let shared = next.into_iter().filter(|(other, _)| is_front(*other) != is_front(face));
+                let shared =
+                    next.into_iter().filter(|(other, _)| is_front(*other) != is_front(face));
                 edges.extend(shared.map(|(other, ends)| (ends, [face, other])));
             }
         }
@@ -113,7 +120,8 @@ fn hit([a, b, c]: [DVec3; 3], ray: DVec3) -> Option<f64> {
 /// The black lines of a figure.
 fn lines(svg: &str) -> Vec<[DVec2; 2]> {
     let line = |line: &str| {
-        let path = line.strip_prefix("<path stroke=\"#000\" stroke-width=\"")?.split_once("d=\"M")?.1;
+        let path =
+            line.strip_prefix("<path stroke=\"#000\" stroke-width=\"")?.split_once("d=\"M")?.1;
         let (from, to) = path.split_once('"')?.0.split_once('L')?;
         let point = |text: &str| {
             let (x, y) = text.split_once(' ')?;
@@ -148,25 +156,33 @@ fn outlines_are_the_parts_of_silhouettes_that_nothing_hides() {
         let torus = Torus::new(tube);
         let faces = torus.faces();
         for _ in 0..2 {
-            let eye = 6.0 * DVec3::new(-1.0, random.between(-0.7, 0.7), random.between(0.2, 0.7)).normalize();
+            let eye = 6.0
+                * DVec3::new(-1.0, random.between(-0.7, 0.7), random.between(0.2, 0.7)).normalize();
             let mut pipe = Pipe::new(0.4 * DVec3::X, SIZE).in_place().shape();
             // An edge is one line.
             pipe.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
             let picture = &mut pipe.rainbow.picture;
-            picture.annotations = AnnotationOptions { outline: true, ..AnnotationOptions::default() };
+            picture.annotations =
+                AnnotationOptions { outline: true, ..AnnotationOptions::default() };
             picture.output = Output::Vector(ugimage::Format::Svg);
-            picture.background = Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+            picture.background =
+                Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
             let svg = String::from_utf8(pipe.run(torus.text(eye).as_bytes()).file).unwrap();
             let lines = lines(&svg);
-            let camera =
-                Camera { center: Some(DVec3::ZERO), view_angle: Some([30.0, 30.0]), ..Camera::default() };
+            let camera = Camera {
+                center: Some(DVec3::ZERO),
+                view_angle: Some([30.0, 30.0]),
+                ..Camera::default()
+            };
             let pinhole = Pinhole::new(&camera, eye, SIZE);
             for (ends, own) in torus.silhouette(eye) {
                 let [from, to] = ends.map(|corner| torus.0[corner] - eye);
                 let pixels = [from, to].map(|end| pinhole.pixel(end).unwrap());
                 let length = (pixels[1] - pixels[0]).length();
                 let is_outside = |pixel: &DVec2| {
-                    pixel.min_element() < 0.0 || pixel.x > f64::from(SIZE[0]) || pixel.y > f64::from(SIZE[1])
+                    pixel.min_element() < 0.0
+                        || pixel.x > f64::from(SIZE[0])
+                        || pixel.y > f64::from(SIZE[1])
                 };
                 // Parts of up to 3 pixels may be left out.
                 if length < 4.0 || pixels.iter().any(is_outside) {
@@ -191,7 +207,8 @@ fn outlines_are_the_parts_of_silhouettes_that_nothing_hides() {
                 for &(at, n_hits) in &steps {
                     if n_hits == 5 {
                         n_hidden += 1;
-                        let is_drawn = parts.iter().any(|[start, end]| start + END < at && at < end - END);
+                        let is_drawn =
+                            parts.iter().any(|[start, end]| start + END < at && at < end - END);
                         assert!(
                             !is_drawn,
                             "a hidden point is drawn, {ends:?} at {at} of {length}, eye {eye}"

@@ -54,7 +54,9 @@ pub fn face_of(pixel: [u8; 4]) -> Shown {
     match pixel {
         [0, 0, 0, 255] => Ok(None),
         [r, g, 0, 255] => step(r).zip(step(g)).map(|(a, b)| Some(a + SIDE * b)).ok_or(pixel),
-        [0, g, b, 255] => step(g).zip(step(b)).map(|(a, b)| Some(SIDE * SIDE + a + SIDE * b)).ok_or(pixel),
+        [0, g, b, 255] => {
+            step(g).zip(step(b)).map(|(a, b)| Some(SIDE * SIDE + a + SIDE * b)).ok_or(pixel)
+        }
         _ => Err(pixel),
     }
 }
@@ -111,7 +113,12 @@ impl Agreement {
 
 impl Display for Agreement {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.3} % agree, {} differ", 100.0 * self.fraction(), self.n_pixels - self.n_same)?;
+        write!(
+            f,
+            "{:.3} % agree, {} differ",
+            100.0 * self.fraction(),
+            self.n_pixels - self.n_same
+        )?;
         write!(f, ", {:.0} % empty", 100.0 * self.n_empty as f64 / self.n_pixels as f64)?;
         write!(f, ", {} wrong", self.wrong.len())?;
         for Wrong { pixel, shown, expected } in self.wrong.iter().take(8) {

@@ -39,8 +39,8 @@ impl Page {
     /// Reads a page of the repository.
     #[must_use]
     pub fn read(path: &'static str) -> Self {
-        let text =
-            fs::read_to_string(scenes::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let text = fs::read_to_string(scenes::root().join(path))
+            .unwrap_or_else(|error| panic!("{path}: {error}"));
         let (mut definitions, mut commands) = (String::new(), Vec::<String>::new());
         let mut is_open = false;
         // Code is indented by four columns, in lists by more.
@@ -68,7 +68,8 @@ impl Page {
     /// Commands of another text, one per line, with comments after ` #`.
     #[must_use]
     pub fn of_commands(path: &'static str, commands: &[String]) -> Self {
-        let code = |command: &String| command.split(" #").next().unwrap_or(command).trim_end().to_owned();
+        let code =
+            |command: &String| command.split(" #").next().unwrap_or(command).trim_end().to_owned();
         let commands = commands.iter().map(code).collect();
         Self { path, text: String::new(), definitions: String::new(), commands }
     }
@@ -80,8 +81,9 @@ impl Page {
     /// The command with its messages, if its status is not 0.
     pub fn run(&self, command: &str, folder: &Path, programs: &Path) -> Result<String, String> {
         let path = std::env::var_os("PATH").unwrap_or_default();
-        let path =
-            std::env::join_paths(std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)));
+        let path = std::env::join_paths(
+            std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)),
+        );
         let output = Command::new("bash")
             .args(["-c", &format!("set -euo pipefail\n{}{command}", self.definitions)])
             .current_dir(folder)
@@ -101,8 +103,8 @@ impl Page {
 /// text.
 #[must_use]
 pub fn transcripts(path: &str) -> Vec<(String, String)> {
-    let text =
-        fs::read_to_string(scenes::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let text = fs::read_to_string(scenes::root().join(path))
+        .unwrap_or_else(|error| panic!("{path}: {error}"));
     let mut transcripts: Vec<(String, String)> = Vec::new();
     let mut is_open = false;
     for line in text.lines().filter(|line| !line.is_empty()) {
@@ -139,7 +141,8 @@ pub fn prepare(folder: &Path, programs: &Path) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         copy_scenes(folder.path());
         let page = Page::of_commands("preparation", &[]);
-        page.run(PREPARATION, folder.path(), programs).unwrap_or_else(|message| panic!("{message}"));
+        page.run(PREPARATION, folder.path(), programs)
+            .unwrap_or_else(|message| panic!("{message}"));
         let entries = fs::read_dir(folder.path()).expect("a folder").flatten();
         let files = entries.filter(|entry| entry.path().is_file());
         files.map(|file| (file.file_name(), fs::read(file.path()).expect("a file"))).collect()
@@ -182,7 +185,9 @@ fn coarse(command: &str) -> String {
         let words: Vec<&str> = part.splitn(3, ' ').collect();
         let pixels = |length: &str| Some(40.0 * length.strip_suffix("cm")?.parse::<f64>().ok()?);
         match words[..] {
-            [width, height, rest] if let (Some(width), Some(height)) = (pixels(width), pixels(height)) => {
+            [width, height, rest]
+                if let (Some(width), Some(height)) = (pixels(width), pixels(height)) =>
+            {
                 format!("{before}-sz {width:.0} {height:.0} {rest}")
             }
             // The width of a sheet.
@@ -205,16 +210,23 @@ pub fn resized(command: &str, default: [u32; 2], scale: f64) -> String {
     }
     let scaled = |length: u32| (f64::from(length) * scale).round().max(1.0) as u32;
     let stage = |stage: &str| {
-        let split = |name: &'static str| stage.split_once(name).map(|(before, after)| (before, name, after));
+        let split = |name: &'static str| {
+            stage.split_once(name).map(|(before, after)| (before, name, after))
+        };
         let Some((before, name, after)) = RENDERERS.into_iter().find_map(split) else {
             return stage.to_owned();
         };
         if let Some((options, rest)) = after.split_once("-sz ") {
             let mut words = rest.splitn(3, ' ');
-            let lengths = [words.next(), words.next()].map(|word| word.and_then(|word| word.parse().ok()));
+            let lengths =
+                [words.next(), words.next()].map(|word| word.and_then(|word| word.parse().ok()));
             if let [Some(width), Some(height)] = lengths {
                 let rest = words.next().map(|rest| format!(" {rest}")).unwrap_or_default();
-                return format!("{before}{name}{options}-sz {} {}{rest}", scaled(width), scaled(height));
+                return format!(
+                    "{before}{name}{options}-sz {} {}{rest}",
+                    scaled(width),
+                    scaled(height)
+                );
             }
             // Lengths stay.
             return stage.to_owned();
@@ -228,14 +240,15 @@ pub fn resized(command: &str, default: [u32; 2], scale: f64) -> String {
 /// The command with further options for every renderer.
 #[must_use]
 pub fn with_options(command: &str, options: &str) -> String {
-    RENDERERS
-        .iter()
-        .fold(command.to_owned(), |command, name| command.replace(name, &format!("{name}{options} ")))
+    RENDERERS.iter().fold(command.to_owned(), |command, name| {
+        command.replace(name, &format!("{name}{options} "))
+    })
 }
 
 /// The command with at most four frames in a film, unless it names frames.
 fn shortened(command: &str) -> String {
-    let names_frames = ["-only ", "-keys ", "--print "].iter().any(|option| command.contains(option));
+    let names_frames =
+        ["-only ", "-keys ", "--print "].iter().any(|option| command.contains(option));
     let Some((before, after)) = command.split_once("-frames ").filter(|_| !names_frames) else {
         return command.to_owned();
     };
@@ -249,7 +262,8 @@ fn shortened(command: &str) -> String {
 #[must_use]
 pub fn written_files(command: &str) -> Vec<PathBuf> {
     let marks = command.match_indices("> ").chain(command.match_indices("-fo "));
-    let names = marks.filter_map(|(at, mark)| command[at + mark.len()..].split([' ', ';', '\n']).next());
+    let names =
+        marks.filter_map(|(at, mark)| command[at + mark.len()..].split([' ', ';', '\n']).next());
     let names = names.flat_map(|name| loop_values(command, name.trim_matches('"')));
     names.map(|name| PathBuf::from(name.replace("%04d", "0001"))).collect()
 }
@@ -259,7 +273,8 @@ fn loop_values(command: &str, name: &str) -> Vec<String> {
     let mut names = vec![name.to_owned()];
     for rest in command.split("for ").skip(1) {
         let Some((variable, values)) = rest.split_once(" in ") else { continue };
-        let Some((values, _)) = values.split_once(';').filter(|(values, _)| !values.contains('$')) else {
+        let Some((values, _)) = values.split_once(';').filter(|(values, _)| !values.contains('$'))
+        else {
             continue;
         };
         let variable = format!("${variable}");

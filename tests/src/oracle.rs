@@ -102,7 +102,9 @@ impl Polygon {
     fn new(scene: &Scene, face: usize, offset: DVec3) -> Option<Self> {
         let contours: Vec<Vec<DVec3>> = scene
             .face_contours(&scene.faces[face])
-            .map(|contour| contour.iter().map(|id| scene.vertices[id.index()].position + offset).collect())
+            .map(|contour| {
+                contour.iter().map(|id| scene.vertices[id.index()].position + offset).collect()
+            })
             .collect();
         let outline = &contours[0];
         let center = outline.iter().sum::<DVec3>() / outline.len() as f64;
@@ -114,14 +116,17 @@ impl Polygon {
             .sum::<DVec3>()
             .try_normalize()?;
         let size = normal.abs();
-        let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).expect("there are three axes");
+        let axis =
+            (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).expect("there are three axes");
         let radius = outline.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max);
-        let edges = contours
-            .iter()
-            .flat_map(|contour| contour.iter().copied().zip(contour.iter().copied().cycle().skip(1)));
+        let edges = contours.iter().flat_map(|contour| {
+            contour.iter().copied().zip(contour.iter().copied().cycle().skip(1))
+        });
         let edges = edges.collect();
-        let contours =
-            contours.iter().map(|contour| contour.iter().map(|&p| without(p, axis)).collect()).collect();
+        let contours = contours
+            .iter()
+            .map(|contour| contour.iter().map(|&p| without(p, axis)).collect())
+            .collect();
         // Everything is near the eye that is in the sphere.
         let half_angle = libm::asin((radius / center.length()).min(1.0));
         let half_angle = if center.length() > radius { half_angle } else { core::f64::consts::PI };
@@ -195,7 +200,10 @@ struct Cone {
 impl Cone {
     fn around(rays: &[DVec3]) -> Self {
         let axis = rays.iter().map(|ray| ray.normalize()).sum::<DVec3>().normalize();
-        Self { axis, half_angle: rays.iter().map(|ray| ray.angle_between(axis)).fold(0.0, f64::max) }
+        Self {
+            axis,
+            half_angle: rays.iter().map(|ray| ray.angle_between(axis)).fold(0.0, f64::max),
+        }
     }
 }
 
@@ -260,10 +268,12 @@ impl Oracle {
             }
         }
         let body = |beta: DVec3| {
-            let faces: Vec<usize> =
-                (0..scene.faces.len()).filter(|&face| beta_of(&scene.faces[face]) == beta).collect();
+            let faces: Vec<usize> = (0..scene.faces.len())
+                .filter(|&face| beta_of(&scene.faces[face]) == beta)
+                .collect();
             let boost = boost(beta);
-            let shift = if in_place { placement(boost, middle(scene, &faces) - eye) } else { DVec3::ZERO };
+            let shift =
+                if in_place { placement(boost, middle(scene, &faces) - eye) } else { DVec3::ZERO };
             let polygons = faces.iter().filter_map(|&face| Polygon::new(scene, face, shift - eye));
             Body { boost, offset: shift - eye, polygons: polygons.collect() }
         };
@@ -295,8 +305,10 @@ impl Oracle {
     ) {
         let [width, _] = camera.size();
         let top = rows.start;
-        let pixels: Vec<(u32, u32)> = rows.flat_map(|y| columns.clone().map(move |x| (x, y))).collect();
-        let center = |&(x, y): &(u32, u32)| camera.direction(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let pixels: Vec<(u32, u32)> =
+            rows.flat_map(|y| columns.clone().map(move |x| (x, y))).collect();
+        let center =
+            |&(x, y): &(u32, u32)| camera.direction(f64::from(x) + 0.5, f64::from(y) + 0.5);
         let directions: Vec<DVec3> = pixels.iter().map(center).collect();
         for ((x, y), face) in pixels.into_iter().zip(self.faces(&directions)) {
             band[((y - top) * width + x) as usize] = face;
@@ -430,8 +442,8 @@ fn placement(boost: DMat4, point: DVec3) -> DVec3 {
 fn middle(scene: &Scene, faces: &[usize]) -> DVec3 {
     let corners = faces.iter().flat_map(|&face| scene.face_contours(&scene.faces[face]).flatten());
     let points = corners.map(|id| scene.vertices[id.index()].position);
-    let (low, high) =
-        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    let (low, high) = points
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
     (low + high) / 2.0
 }
 

@@ -41,7 +41,8 @@ pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle) -> Er
         let contours = seen.face_contours(&seen.faces[row]);
         let ends = contours.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
         let position = |id: &ugscene::VertexId| seen.vertices[id.index()].position - eye;
-        ends.map(|(a, b)| of_chord(&outline, [position(a), position(b)])).fold(Errors::default(), Errors::and)
+        ends.map(|(a, b)| of_chord(&outline, [position(a), position(b)]))
+            .fold(Errors::default(), Errors::and)
     };
     origin.par_iter().enumerate().map(of_face).reduce(Errors::default, Errors::and)
 }

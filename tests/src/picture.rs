@@ -82,7 +82,10 @@ pub fn assert_golden(name: &str, actual: &Picture) {
         assert_same(name, &read(&path), actual, 0);
     } else {
         let path = save(name, actual);
-        panic!("{name} is not recorded: look at {}, then record it with UG_BLESS=1", path.display());
+        panic!(
+            "{name} is not recorded: look at {}, then record it with UG_BLESS=1",
+            path.display()
+        );
     }
 }
 
@@ -120,6 +123,7 @@ fn panels(expected: &Picture, actual: &Picture) -> Picture {
 /// The text of an SVG file, in its order. Slanted symbols are elements of their own.
 #[must_use]
 pub fn svg_text(svg: &str) -> String {
-    let runs = svg.split("<text ").skip(1).filter_map(|run| run.split_once('>')?.1.split_once("</text>"));
+    let runs =
+        svg.split("<text ").skip(1).filter_map(|run| run.split_once('>')?.1.split_once("</text>"));
     runs.map(|(run, _)| run).collect()
 }

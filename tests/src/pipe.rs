@@ -92,7 +92,8 @@ pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
 /// `uglorentz`, called by that command line.
 #[track_caller]
 fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Vec<u8> {
-    let (mut scene, _) = lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
+    let (mut scene, _) =
+        lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
     scene.head.record(Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
     ugparse::write_with(&scene, &read(text, None).passed_on)
 }
@@ -125,7 +126,8 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 #[track_caller]
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
     let Parsed { scene, passed_on, .. } = read(text, None);
-    let (mut scene, _) = ugdoppler::apply(scene, config).unwrap_or_else(|error| panic!("ugdoppler: {error}"));
+    let (mut scene, _) =
+        ugdoppler::apply(scene, config).unwrap_or_else(|error| panic!("ugdoppler: {error}"));
     scene.head.record(Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
     ugparse::write_with(&scene, &passed_on)
 }

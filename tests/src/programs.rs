@@ -9,8 +9,17 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-const NAMES: [&str; 9] =
-    ["ugdoppler", "ugfilm", "uglorentz", "ugmesh", "ugparse", "ugphoton", "ugrainbow", "ugsheet", "ugwarp"];
+const NAMES: [&str; 9] = [
+    "ugdoppler",
+    "ugfilm",
+    "uglorentz",
+    "ugmesh",
+    "ugparse",
+    "ugphoton",
+    "ugrainbow",
+    "ugsheet",
+    "ugwarp",
+];
 
 /// The folder of the programs: that of the variable `UG_PROGRAMS`, or else one with a link of each
 /// name to `ugtests-programs`, which cargo builds beside the tests.

@@ -8,7 +8,9 @@ use ugscene::Scene;
 
 /// The root of the repository.
 pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is a folder of the repository")
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("the package is a folder of the repository")
 }
 
 /// The target folder in which this program was built.
@@ -24,7 +26,8 @@ pub fn target_dir() -> PathBuf {
 /// Files that a user puts beside them are none of ours.
 pub fn names() -> Vec<String> {
     let list = root().join("scenes").join("README.md");
-    let list = fs::read_to_string(&list).unwrap_or_else(|error| panic!("{}: {error}", list.display()));
+    let list =
+        fs::read_to_string(&list).unwrap_or_else(|error| panic!("{}: {error}", list.display()));
     let rows = list.lines().filter_map(|line| line.strip_prefix("| `")?.split_once(".ug`"));
     let mut names: Vec<String> = rows.map(|(name, _)| name.to_string()).collect();
     names.sort();

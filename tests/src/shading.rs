@@ -2,7 +2,9 @@
 //! spectrum, and lighting at rest.
 
 use glam::DVec3;
-use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue, xyz_to_linear_srgb};
+use ugphysics::{
+    Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue, xyz_to_linear_srgb,
+};
 use ugrainbow::{ColorShift, HueShift};
 use ugscene::{ColorId, ColorValue, Face, LightKind, Scene, Tint, VertexId};
 
@@ -29,20 +31,29 @@ impl<'a> Shading<'a> {
             }
         }
         let color = |(vertex, around): (&ugscene::Vertex, &Vec<ColorId>)| {
-            vertex.color.or_else(|| around.first().copied().filter(|a| around.iter().all(|b| a == b)))
+            vertex
+                .color
+                .or_else(|| around.first().copied().filter(|a| around.iter().all(|b| a == b)))
         };
         Self { scene, eye, colors: scene.vertices.iter().zip(&around).map(color).collect() }
     }
 
     /// Observed linear red, green and blue of a point; `None` for cases that this module does not
     /// cover.
-    pub fn seen(&self, face: usize, hit: &Hit, doppler: f64, exact: ColorShift) -> Option<[f64; 3]> {
+    pub fn seen(
+        &self,
+        face: usize,
+        hit: &Hit,
+        doppler: f64,
+        exact: ColorShift,
+    ) -> Option<[f64; 3]> {
         let face = &self.scene.faces[face];
         let corners: Vec<VertexId> = self.scene.face_contours(face).flatten().copied().collect();
         let weights = match corners[..] {
             [a, b, c] => self.weights([a, b, c], hit.written).to_vec(),
             _ => {
-                let normals = corners.iter().any(|id| self.scene.vertices[id.index()].normal.is_some());
+                let normals =
+                    corners.iter().any(|id| self.scene.vertices[id.index()].normal.is_some());
                 let first = self.colors[corners[0].index()];
                 let is_even = corners.iter().all(|id| self.colors[id.index()] == first);
                 (is_even && !normals).then(|| vec![(corners[0], 1.0)])?
@@ -55,13 +66,19 @@ impl<'a> Shading<'a> {
         }
     }
 
-    fn seen_hue(&self, weights: Weights<'_>, level: f64, doppler: f64, exact: HueShift) -> Option<[f64; 3]> {
+    fn seen_hue(
+        &self,
+        weights: Weights<'_>,
+        level: f64,
+        doppler: f64,
+        exact: HueShift,
+    ) -> Option<[f64; 3]> {
         let Hsv { hue, saturation, value } = self.color(weights)?;
         let rest_nm = hue_to_wavelength(hue);
         let seen_nm = if exact.doppler { rest_nm / doppler } else { rest_nm };
         let value = value * level * exact.law.factor(doppler);
-        let seen =
-            Hsv { hue: wavelength_to_hue(seen_nm), saturation, value }.attenuated(attenuation(seen_nm));
+        let seen = Hsv { hue: wavelength_to_hue(seen_nm), saturation, value }
+            .attenuated(attenuation(seen_nm));
         Some(seen.to_rgb().map(srgb_decode))
     }
 
@@ -89,7 +106,8 @@ impl<'a> Shading<'a> {
     fn weights(&self, corners: [VertexId; 3], point: DVec3) -> [(VertexId, f64); 3] {
         let [a, b, c] = corners.map(|id| self.scene.vertices[id.index()].position);
         let all = (b - a).cross(c - a);
-        let part = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(all) / all.length_squared();
+        let part =
+            |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(all) / all.length_squared();
         let [first, second, third] = corners;
         [(first, part(b, c)), (second, part(c, a)), (third, part(a, b))]
     }
@@ -98,7 +116,9 @@ impl<'a> Shading<'a> {
         let colors: Option<Vec<(Hsv, f64)>> =
             weights.iter().map(|&(id, weight)| Some((self.hsv(id)?, weight))).collect();
         let colors = colors?;
-        let mean = |of: fn(&Hsv) -> f64| colors.iter().map(|(color, weight)| of(color) * weight).sum::<f64>();
+        let mean = |of: fn(&Hsv) -> f64| {
+            colors.iter().map(|(color, weight)| of(color) * weight).sum::<f64>()
+        };
         // A grey corner takes the hue of the others: not covered.
         let has_hue = |color: &Hsv| color.saturation > 0.0;
         let is_mixed = colors.iter().any(|(color, _)| has_hue(color) != has_hue(&colors[0].0));
@@ -113,7 +133,8 @@ impl<'a> Shading<'a> {
         if let Some(level) = self.scene.light_level(face) {
             return Some(level);
         }
-        let toward_seen = |normal: DVec3, seen: DVec3| if normal.dot(seen) < 0.0 { -normal } else { normal };
+        let toward_seen =
+            |normal: DVec3, seen: DVec3| if normal.dot(seen) < 0.0 { -normal } else { normal };
         let flat = toward_seen(hit.normal, -hit.point);
         let own = |&(id, weight): &(VertexId, f64)| {
             let own = self.scene.vertices[id.index()].normal.map_or(flat, DVec3::normalize);

@@ -17,7 +17,8 @@ impl Shell {
         let shell = Self(tempfile::tempdir().expect("a temporary folder"));
         let scenes = scenes::root().join("scenes");
         for name in files {
-            fs::copy(scenes.join(name), shell.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+            fs::copy(scenes.join(name), shell.path(name))
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
         }
         shell
     }

@@ -36,7 +36,8 @@ pub const GHOSTSCRIPT: Tool =
     tool("gs", "--version", "ghostscript", "PostScript and PDF files show the pixels of the PNG");
 
 /// Renders PDF.
-pub const POPPLER: Tool = tool("pdftoppm", "-v", "poppler-utils", "PDF figures show the same as the PNG");
+pub const POPPLER: Tool =
+    tool("pdftoppm", "-v", "poppler-utils", "PDF figures show the same as the PNG");
 
 /// Renders SVG.
 pub const RSVG: Tool =
@@ -47,7 +48,8 @@ pub const CHROMIUM: Tool =
     tool("chromium", "--version", "chromium", "SVG figures look the same in a browser");
 
 /// Encodes films.
-pub const FFMPEG: Tool = tool("ffprobe", "-version", "ffmpeg", "films are marked as others expect it");
+pub const FFMPEG: Tool =
+    tool("ffprobe", "-version", "ffmpeg", "films are marked as others expect it");
 
 /// Reads EXR, HDR and PFM.
 pub const OIIOTOOL: Tool = tool(
@@ -119,7 +121,10 @@ pub fn without_other_build(check: &str) -> String {
 impl Tool {
     /// True if the program is installed.
     pub fn is_there(self) -> bool {
-        Command::new(self.program).arg(self.option).output().is_ok_and(|output| output.status.success())
+        Command::new(self.program)
+            .arg(self.option)
+            .output()
+            .is_ok_and(|output| output.status.success())
     }
 
     /// The message about a missing program, with the remedy.

@@ -11,7 +11,8 @@ use crate::scenes::root;
 pub fn files() -> Vec<PathBuf> {
     let mut git = Command::new("git");
     git.args(["ls-files", "-z"]).current_dir(root());
-    let listed = git.output().ok().filter(|output| output.status.success() && !output.stdout.is_empty());
+    let listed =
+        git.output().ok().filter(|output| output.status.success() && !output.stdout.is_empty());
     let mut files: Vec<PathBuf> = match listed {
         Some(output) => {
             let names = output.stdout.split(|&byte| byte == 0).filter(|name| !name.is_empty());
@@ -26,10 +27,12 @@ pub fn files() -> Vec<PathBuf> {
 }
 
 fn below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let entries =
+        fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let paths = entries.map(|entry| entry.expect("a folder can be listed").path());
-    let is_made =
-        |path: &PathBuf| path.ends_with(".git") || path.ends_with("target") || path.ends_with("figures");
+    let is_made = |path: &PathBuf| {
+        path.ends_with(".git") || path.ends_with("target") || path.ends_with("figures")
+    };
     paths
         .filter(|path| !is_made(path))
         .flat_map(|path| if path.is_dir() { below(&path) } else { vec![path] })

@@ -66,7 +66,8 @@ fn shortest_circle(imports: &Imports, start: &str) -> Option<Vec<String>> {
 fn imports(files: &BTreeMap<String, String>) -> BTreeMap<Vec<String>, Imports> {
     let is_module = |path: &&String| path.as_str() != "main.rs" && !path.starts_with("bin/");
     let paths = files.keys().filter(is_module);
-    let modules: BTreeMap<Vec<String>, &String> = paths.map(|path| (module_of(path), path)).collect();
+    let modules: BTreeMap<Vec<String>, &String> =
+        paths.map(|path| (module_of(path), path)).collect();
     let exports: BTreeMap<&Vec<String>, BTreeMap<String, String>> =
         modules.iter().map(|(module, path)| (module, exports(&code(&files[*path])))).collect();
     let mut imports: BTreeMap<Vec<String>, Imports> = BTreeMap::new();
@@ -78,10 +79,13 @@ fn imports(files: &BTreeMap<String, String>) -> BTreeMap<Vec<String>, Imports> {
                     break;
                 }
                 let name = &used[depth];
-                let other =
-                    exports.get(&folder.to_vec()).and_then(|exports| exports.get(name)).unwrap_or(name);
+                let other = exports
+                    .get(&folder.to_vec())
+                    .and_then(|exports| exports.get(name))
+                    .unwrap_or(name);
                 let is_other = *other != module[depth];
-                if is_other && modules.contains_key(&[folder, std::slice::from_ref(other)].concat()) {
+                if is_other && modules.contains_key(&[folder, std::slice::from_ref(other)].concat())
+                {
                     let of_folder = imports.entry(folder.to_vec()).or_default();
                     let of_own = of_folder.entry(module[depth].clone()).or_default();
                     of_own.entry(other.clone()).or_insert_with(|| (*path).clone());
@@ -97,7 +101,9 @@ fn imports(files: &BTreeMap<String, String>) -> BTreeMap<Vec<String>, Imports> {
 fn exports(code: &str) -> BTreeMap<String, String> {
     let mut exports = BTreeMap::new();
     for statement in code.split(';') {
-        let Some(at) = statement.find("use ").filter(|&at| statement[..at].contains("pub")) else { continue };
+        let Some(at) = statement.find("use ").filter(|&at| statement[..at].contains("pub")) else {
+            continue;
+        };
         for path in tree(&statement[at + "use ".len()..]) {
             if let [module, .., name] = &path[..] {
                 exports.insert(name.clone(), module.clone());
@@ -113,7 +119,8 @@ fn used(module: &[String], code: &str) -> Vec<Vec<String>> {
     let mut used = Vec::new();
     for begin in ["crate::", "self::", "super::"] {
         for (at, _) in code.match_indices(begin) {
-            let is_whole = !code[..at].ends_with(|c: char| c == ':' || c == '_' || c.is_alphanumeric());
+            let is_whole =
+                !code[..at].ends_with(|c: char| c == ':' || c == '_' || c.is_alphanumeric());
             if is_whole {
                 used.extend(tree(&code[at..]).into_iter().map(|path| from_root(module, &path)));
             }

@@ -51,7 +51,10 @@ pub fn of_lock_file(file: &str, packages: &[Locked]) -> Vec<String> {
         *versions.entry(&package.name).or_default() += 1;
         let Some(source) = &package.source else { continue };
         if source != REGISTRY {
-            findings.push(format!("{file}: {} is from {source}: use a version of crates.io", package.name));
+            findings.push(format!(
+                "{file}: {} is from {source}: use a version of crates.io",
+                package.name
+            ));
         } else if package.checksum.is_none() {
             findings.push(format!("{file}: {} has no checksum", package.name));
         }
@@ -96,8 +99,9 @@ pub fn of_licenses(folder: &Path) -> (Vec<String>, usize) {
     let finding = |package: &Value| {
         let license = package["license"].as_str().unwrap_or("no licence");
         let is_allowed = is_allowed(license);
-        (!is_allowed)
-            .then(|| format!("{}: {license} is not allowed in tests/tidy/dependencies.rs", package["name"]))
+        (!is_allowed).then(|| {
+            format!("{}: {license} is not allowed in tests/tidy/dependencies.rs", package["name"])
+        })
     };
     (packages.iter().filter_map(finding).collect(), packages.len())
 }
@@ -105,10 +109,22 @@ pub fn of_licenses(folder: &Path) -> (Vec<String>, usize) {
 /// The packages, with their versions, that a library without its default features is built of.
 pub fn built(folder: &Path, library: &str) -> BTreeSet<String> {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["tree", "--offline", "--no-default-features", "--edges", "normal", "--prefix", "none"]);
+    cargo.args([
+        "tree",
+        "--offline",
+        "--no-default-features",
+        "--edges",
+        "normal",
+        "--prefix",
+        "none",
+    ]);
     cargo.args(["--package", library, "--format", "{p}"]).current_dir(folder);
     // Cargo marks packages that it lists again.
-    String::from_utf8(output(&mut cargo)).unwrap().lines().map(|line| line.replace(" (*)", "")).collect()
+    String::from_utf8(output(&mut cargo))
+        .unwrap()
+        .lines()
+        .map(|line| line.replace(" (*)", ""))
+        .collect()
 }
 
 /// The platform that this is built for, and its programs run on.

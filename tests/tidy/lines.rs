@@ -25,7 +25,9 @@ impl std::ops::AddAssign for Lines {
 /// `benches/` are tests, and examples are neither.
 pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Lines {
     let counted: Vec<(&PathBuf, Counted)> = (files.iter())
-        .map(|(path, text)| (path, count(text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))))
+        .map(|(path, text)| {
+            (path, count(text).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
+        })
         .collect();
     let modules_of_tests: Vec<PathBuf> = (counted.iter())
         .flat_map(|(path, file)| file.test_modules.iter().map(|name| below(path).join(name)))
@@ -37,7 +39,9 @@ pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Lines {
         if place.starts_with("examples") {
             continue;
         }
-        if place.starts_with("tests") || place.starts_with("benches") || modules_of_tests.iter().any(is_test)
+        if place.starts_with("tests")
+            || place.starts_with("benches")
+            || modules_of_tests.iter().any(is_test)
         {
             sum.test += file.lines.production + file.lines.test;
         } else {
@@ -92,12 +96,15 @@ impl Found {
                     continue;
                 }
                 let is_condition = words.first().is_some_and(|word| word == "cfg");
-                is_test_item |=
-                    is_condition && words.contains(&"test".into()) && !words.contains(&"not".into());
+                is_test_item |= is_condition
+                    && words.contains(&"test".into())
+                    && !words.contains(&"not".into());
             }
             let is_test_here = is_test || is_test_item;
-            if let (true, [TokenTree::Ident(word), TokenTree::Ident(name), TokenTree::Punct(end), ..]) =
-                (is_test_here, &tokens[at..])
+            if let (
+                true,
+                [TokenTree::Ident(word), TokenTree::Ident(name), TokenTree::Punct(end), ..],
+            ) = (is_test_here, &tokens[at..])
                 && *word == "mod"
                 && end.as_char() == ';'
             {
@@ -131,7 +138,9 @@ fn attribute(tokens: &[TokenTree]) -> Option<(usize, &proc_macro2::Group)> {
     let is = |token: &TokenTree, sign| matches!(token, TokenTree::Punct(found) if found.as_char() == sign);
     let n_signs = if tokens.get(1).is_some_and(|token| is(token, '!')) { 2 } else { 1 };
     match tokens.get(n_signs) {
-        Some(TokenTree::Group(group)) if is(&tokens[0], '#') && group.delimiter() == Delimiter::Bracket => {
+        Some(TokenTree::Group(group))
+            if is(&tokens[0], '#') && group.delimiter() == Delimiter::Bracket =>
+        {
             Some((n_signs + 1, group))
         }
         _ => None,

@@ -11,7 +11,10 @@ pub fn of(source: &str) -> Vec<(usize, String)> {
         let line = source[..line].matches('\n').count();
         rest = if here.starts_with("//") {
             here.find('\n').map_or("", |end| &here[end..])
-        } else if here.starts_with("'\"'") || here.starts_with("'\\\"'") || here.starts_with("'\\''") {
+        } else if here.starts_with("'\"'")
+            || here.starts_with("'\\\"'")
+            || here.starts_with("'\\''")
+        {
             &here[here[1..].find('\'').map_or(1, |end| end + 2)..]
         } else if here.starts_with('"') {
             let hashes = before.len() - before.trim_end_matches('#').len();

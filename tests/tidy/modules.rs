@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Files that no `mod` leads to. `files`: paths below the `src` of a crate, and their texts.
 pub fn undeclared(files: &BTreeMap<String, String>) -> Vec<&String> {
-    let is_root = |path: &&String| matches!(path.as_str(), "lib.rs" | "main.rs") || path.starts_with("bin/");
+    let is_root =
+        |path: &&String| matches!(path.as_str(), "lib.rs" | "main.rs") || path.starts_with("bin/");
     let mut queue: Vec<String> = files.keys().filter(is_root).cloned().collect();
     let mut declared: BTreeSet<String> = queue.iter().cloned().collect();
     while let Some(path) = queue.pop() {
@@ -28,6 +29,7 @@ pub fn undeclared(files: &BTreeMap<String, String>) -> Vec<&String> {
 
 /// The names of the modules that a file declares without their text.
 fn modules(text: &str) -> impl Iterator<Item = &str> {
-    let words = text.lines().map(|line| line.trim_start_matches("pub(crate) ").trim_start_matches("pub "));
+    let words =
+        text.lines().map(|line| line.trim_start_matches("pub(crate) ").trim_start_matches("pub "));
     words.filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'))
 }

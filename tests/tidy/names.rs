@@ -17,7 +17,9 @@ pub fn public_types(files: &BTreeMap<String, String>) -> Vec<String> {
     while let Some(module) = public.pop() {
         let Some(code) = modules.get(&module) else { continue };
         types.extend(defined(code).map(str::to_owned));
-        public.extend(words_after(code, "pub mod ").map(|name| [&module[..], &[name.to_owned()]].concat()));
+        public.extend(
+            words_after(code, "pub mod ").map(|name| [&module[..], &[name.to_owned()]].concat()),
+        );
         for path in exported(code, "pub use ") {
             let (name, folder) = path.split_last().expect("a path has a name");
             let folder = from_root(&module, folder);

@@ -26,7 +26,8 @@ pub fn code(text: &str) -> String {
 /// A path in a module, from the root of the crate.
 pub fn from_root(module: &[String], path: &[String]) -> Vec<String> {
     let n_up = path.iter().take_while(|name| *name == "super").count();
-    let n_begin = path.iter().take_while(|name| ["crate", "self", "super"].contains(&name.as_str())).count();
+    let n_begin =
+        path.iter().take_while(|name| ["crate", "self", "super"].contains(&name.as_str())).count();
     let is_whole = path.first().is_some_and(|name| name == "crate");
     let base = if is_whole { &[] } else { &module[..module.len().saturating_sub(n_up)] };
     [base, &path[n_begin..]].concat()
@@ -41,7 +42,8 @@ pub fn tree(text: &str) -> Vec<Vec<String>> {
     let mut path: Vec<String> = Vec::new();
     let mut rest = text.trim_start();
     loop {
-        let word: String = rest.chars().take_while(|c| c.is_alphanumeric() || "_*".contains(*c)).collect();
+        let word: String =
+            rest.chars().take_while(|c| c.is_alphanumeric() || "_*".contains(*c)).collect();
         rest = &rest[word.len()..];
         if !word.is_empty() {
             path.push(word);

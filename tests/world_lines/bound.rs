@@ -145,7 +145,8 @@ fn errors_of(
         for (s, t) in [(1, 1), (2, 2), (1, 4), (4, 1), (1, 2), (2, 1), (3, 2)] {
             let (s, t) = (f64::from(s) / 6.0, f64::from(t) / 6.0);
             let place = see((1.0 - s - t) * rest_a + s * rest_b + t * rest_c);
-            errors.inside = errors.inside.max(normal.dot(place - a).abs() / place.length() / offset_bound);
+            errors.inside =
+                errors.inside.max(normal.dot(place - a).abs() / place.length() / offset_bound);
         }
     }
     errors

@@ -22,7 +22,14 @@ const LEVEL: f64 = 0.5;
 
 fn lit() -> Config {
     let shift = ColorShift::hues(true, Brightness::None);
-    Config { light: true, tolerance: 0.0, wavelengths: true, keep: true, shift, ..Config::default() }
+    Config {
+        light: true,
+        tolerance: 0.0,
+        wavelengths: true,
+        keep: true,
+        shift,
+        ..Config::default()
+    }
 }
 
 /// The part of the lamp's level that falls on a point of a triangle, on the side of its normal, D
@@ -34,7 +41,8 @@ fn expected(
 ) -> (f64, f64, f64) {
     let sighting = eye.sight(body, point);
     let (own_time, here) = (sighting.own_time, sighting.moment);
-    let tangents = [corners[1] - corners[0], corners[2] - corners[0]].map(|t| body.vector(t, own_time));
+    let tangents =
+        [corners[1] - corners[0], corners[2] - corners[0]].map(|t| body.vector(t, own_time));
     let normal = across(here.velocity, tangents[0], tangents[1]);
     let source = lamp_body.moment(lamp, emission_time(lamp_body, lamp, here.event));
     let way = plus(source.event, -1.0, here.event);
@@ -91,11 +99,14 @@ fn lamplight_arrives_when_integration_says() {
         world.triangles[0].body = usize::from(case % 6 == 0);
         let lamp = world.motions[lamp_row].at + random.in_ball(0.5);
         let text = world.text().replace(") <", ") green <");
-        let text = format!("c green {VALUE} {HUE} 1; l {LEVEL} {} 0 <m{lamp_row}>;\n{text}", words(lamp));
+        let text =
+            format!("c green {VALUE} {HUE} 1; l {LEVEL} {} 0 <m{lamp_row}>;\n{text}", words(lamp));
         let velocity = random.in_ball(0.6);
         let eye = 6.0 * random.direction();
-        let config =
-            uglorentz::Config { camera_velocity: Some(velocity), ..options(eye, random.between(-2.0, 3.0)) };
+        let config = uglorentz::Config {
+            camera_velocity: Some(velocity),
+            ..options(eye, random.between(-2.0, 3.0))
+        };
         let scene = parse(&pipe::doppler(&pipe::lorentz(text.as_bytes(), &config), &lit()));
         let observer = observer(eye, velocity, config.time);
         let bodies = world.bodies();
@@ -103,14 +114,18 @@ fn lamplight_arrives_when_integration_says() {
         let mut side = None;
         for (corner, point) in triangle.corners.into_iter().enumerate() {
             let surface = (&bodies[triangle.body], triangle.corners, point);
-            let (cosine, doppler, own_side) = expected(&observer, surface, (&bodies[lamp_row], lamp));
+            let (cosine, doppler, own_side) =
+                expected(&observer, surface, (&bodies[lamp_row], lamp));
             let (nm, value) = color(&scene, &format!("p0_{corner}"));
             // A piece is lit on the side on which its first corner is seen.
             let level = VALUE * LEVEL * (cosine * *side.get_or_insert(own_side)).max(0.0);
             assert!((value - level).abs() < 1e-9, "case {case}: {value}, not {level}\n{text}");
             if level > 0.0 {
                 let expected = hue_to_wavelength(HUE) / doppler;
-                assert!((nm / expected - 1.0).abs() < 1e-9, "case {case}: {nm}, not {expected}\n{text}");
+                assert!(
+                    (nm / expected - 1.0).abs() < 1e-9,
+                    "case {case}: {nm}, not {expected}\n{text}"
+                );
                 n_lit += 1;
             }
         }
@@ -160,9 +175,10 @@ fn lamps_belong_to_the_body_they_light() {
     let [a, b] = [body("a", -5.0), body("b", 1.0)];
     let alone = light("motion b -vel .6 0 0;", std::slice::from_ref(&b));
     assert!(alone[0].1 > 0.1, "{alone:?}");
-    for motions in
-        ["motion a -vel .6 0 0; motion b -vel .6 0 0;", "motion b -vel .6 0 0; motion a -vel .6 0 0;"]
-    {
+    for motions in [
+        "motion a -vel .6 0 0; motion b -vel .6 0 0;",
+        "motion b -vel .6 0 0; motion a -vel .6 0 0;",
+    ] {
         let both = light(motions, &[a.clone(), b.clone()]);
         for ((nm, value), (nm_alone, value_alone)) in both.into_iter().zip(alone) {
             assert!(
@@ -177,16 +193,20 @@ fn lamps_belong_to_the_body_they_light() {
 /// and rays draw the same light.
 #[test]
 fn faces_are_cut_by_the_light_of_lamps_that_move_and_change() {
-    let circle = "motion m -spin 0 0 .25; v a -4 3 -4; v b 4 3 -4; v c 4 3 4; v d -4 3 4; f (a b c d);
+    let circle =
+        "motion m -spin 0 0 .25; v a -4 3 -4; v b 4 3 -4; v c 4 3 4; v d -4 3 4; f (a b c d);
         l lamp 1 2 1.5 0 0 1 <m>; cam -ep 0 -5 0 -vc 0 3 0 -va 60;";
-    let flash = "c_rgb w .9 .9 .9; c_rgb on 1 1 1; c_rgb off 0 0 0; c_time fl -step 0 off .001 on .2 off;
+    let flash =
+        "c_rgb w .9 .9 .9; c_rgb on 1 1 1; c_rgb off 0 0 0; c_time fl -step 0 off .001 on .2 off;
         v a -30 10 -30; v b 30 10 -30; v c 30 10 30; v d -30 10 30; f (a b c d) w;
         l 1 0 4 0 0 fl <0 0 0>; cam -ep 0 0 0 -vc 0 1 0 -va 100;";
     for (text, time, mean_error) in [(circle, 0.0, 0.004), (flash, 17.0, 0.004)] {
         let source = ugparse::Source::new("lamp.ug", text);
         let scene = ugparse::read(&source, &ugparse::Options::default(), None).unwrap().scene;
-        let config = uglorentz::Config { time, light_error: 0.01, measure: true, ..Default::default() };
-        let left = uglorentz::apply(scene, &config).unwrap().1.remaining_errors.unwrap().light.unwrap();
+        let config =
+            uglorentz::Config { time, light_error: 0.01, measure: true, ..Default::default() };
+        let left =
+            uglorentz::apply(scene, &config).unwrap().1.remaining_errors.unwrap().light.unwrap();
         assert!(left.error < 0.01, "{time} {left:?}");
         let rays = Picture::of_scene(text.to_owned(), SPECTRA).like_pipe();
         let motion = ugscene::MotionOptions { time, ..rays.motion.clone() };

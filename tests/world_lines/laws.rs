@@ -42,7 +42,8 @@ fn no_spin_and_no_acceleration_are_inertial_motion_byte_for_byte() {
         "-at 1 2 3 -acc 0 0 0 -vel .3 .5 -.2 -acc 0 0 0 -3 -1",
         "-vel .3 .5 -.2 -spin 0 0 0 1 2 -acc 0 0 0 1 2",
     ] {
-        let velocity = if options.starts_with("-at 1 2 3") { "<.3 .5 -.2 -at 1 2 3>" } else { "<.3 .5 -.2>" };
+        let velocity =
+            if options.starts_with("-at 1 2 3") { "<.3 .5 -.2 -at 1 2 3>" } else { "<.3 .5 -.2>" };
         let velocity = cube(velocity);
         let named = [format!("motion m {options};\n").as_bytes(), &cube("<m>")].concat();
         let on = format!("motion n -on m -at 1 1 1; motion m {options};\n");
@@ -137,7 +138,12 @@ fn slow_spins_are_placed_as_no_spin() {
             let [turning, inertial] = texts.map(|text| seen(&text, &config));
             for (a, b) in turning.vertices.iter().zip(&inertial.vertices) {
                 let off = (a.position - b.position).length();
-                assert!(off < 1e-11, "{camera} {anchor:?} {in_place}: {} {}", a.position, b.position);
+                assert!(
+                    off < 1e-11,
+                    "{camera} {anchor:?} {in_place}: {} {}",
+                    a.position,
+                    b.position
+                );
             }
         }
     }
@@ -168,12 +174,15 @@ fn a_camera_that_has_stopped_is_where_it_stopped() {
             ..uglorentz::Config::default()
         };
         for after in [0.0, 1.5] {
-            let [driven, stood] =
-                [(&drives, 12.0), (&stands, time)].map(|(text, time)| seen(text, &config(time + after)));
+            let [driven, stood] = [(&drives, 12.0), (&stands, time)]
+                .map(|(text, time)| seen(text, &config(time + after)));
             assert_eq!(driven.vertices.len(), stood.vertices.len());
             let shift = ugscene::eye(&driven, None) - ugscene::eye(&stood, None);
             for (a, b) in driven.vertices.iter().zip(&stood.vertices) {
-                assert!((a.position - b.position - shift).length() < 1e-11, "{of_cube}: {a:?} {b:?}");
+                assert!(
+                    (a.position - b.position - shift).length() < 1e-11,
+                    "{of_cube}: {a:?} {b:?}"
+                );
             }
             let [driven, stood] = [(&drives, 12.0), (&stands, time)].map(|(text, time)| {
                 let mut config = ugphoton::Config::default();
@@ -204,9 +213,13 @@ fn a_camera_sees_its_own_body_as_it_is() {
         }
         // Without spin it is at rest for its own camera.
         motion.spins.clear();
-        let text =
-            format!("{} v a 1 2 3; v b 2 2 {}; w (a b) <m0>;", motion.text("m0"), words(DVec3::ONE).len());
-        let scene = seen(&format!("{text} cam -vc 0 0 0 <m0>;"), &options(eye, random.between(-3.0, 3.0)));
+        let text = format!(
+            "{} v a 1 2 3; v b 2 2 {}; w (a b) <m0>;",
+            motion.text("m0"),
+            words(DVec3::ONE).len()
+        );
+        let scene =
+            seen(&format!("{text} cam -vc 0 0 0 <m0>;"), &options(eye, random.between(-3.0, 3.0)));
         let found = scene.vertices[0].position;
         assert!((found - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-11, "{found}");
     }

@@ -42,8 +42,12 @@ impl World {
 
     /// Motions and faces.
     fn text(&self) -> String {
-        let mut text: String =
-            self.motions.iter().enumerate().map(|(row, motion)| motion.text(&format!("m{row}"))).collect();
+        let mut text: String = self
+            .motions
+            .iter()
+            .enumerate()
+            .map(|(row, motion)| motion.text(&format!("m{row}")))
+            .collect();
         for (row, Triangle { body, corners }) in self.triangles.iter().enumerate() {
             for (k, corner) in corners.iter().enumerate() {
                 text += &format!("v p{row}_{k} {};\n", words(*corner));

@@ -35,7 +35,8 @@ fn own_times_and_axes_are_integrated_to_rounding() {
     while n_found < 12 {
         let rows = rows(&mut random);
         let curve = Curve::new(&rows);
-        let times = (0..1000).map(|k| rows[0][0] + (rows[6][0] - rows[0][0]) * f64::from(k) / 1000.0);
+        let times =
+            (0..1000).map(|k| rows[0][0] + (rows[6][0] - rows[0][0]) * f64::from(k) / 1000.0);
         let fastest = times.map(|t| curve.at(t).0.length()).fold(0.0, f64::max);
         let events: Vec<Event> = rows.iter().copied().map(event).collect();
         if fastest > 0.95 {
@@ -55,7 +56,10 @@ fn own_times_and_axes_are_integrated_to_rounding() {
             for (unit, axis) in DVec3::AXES.into_iter().zip(axes) {
                 let found = pose.scene_from_axes.apply(Event { t: 0.0, x: unit });
                 let error = found - event(axis);
-                assert!(error.t.abs().max(error.x.length()) < 1e-12, "{own_time}: {error:?} {rows:?}");
+                assert!(
+                    error.t.abs().max(error.x.length()) < 1e-12,
+                    "{own_time}: {error:?} {rows:?}"
+                );
             }
         }
     }
@@ -77,7 +81,10 @@ fn a_path_is_where_its_events_are() {
         let config = uglorentz::Config { anchor, in_place, ..options(eye, 7.0) };
         let scene = parse(&pipe::lorentz(text.as_bytes(), &config));
         let seen = scene.vertices[0].position;
-        assert!((seen - DVec3::new(3.0, 1.0, 0.0)).length() < 1e-12, "{anchor:?} {in_place}: {seen}");
+        assert!(
+            (seen - DVec3::new(3.0, 1.0, 0.0)).length() < 1e-12,
+            "{anchor:?} {in_place}: {seen}"
+        );
         let own = ugscene::measure(&scene, eye, 7.0)[0].velocity;
         let curve = Curve::new(&[[0.0, 3.0, 0.0, 0.0], [2.0, 3.0, 1.0, 0.0], [4.0, 4.0, 1.0, 0.0]]);
         assert!((own - curve.at(2.0).0).length() < 1e-12, "{own}");

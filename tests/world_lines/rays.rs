@@ -22,7 +22,8 @@ fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
         (2.0, 0.9683178487, 4.004470079, 3.75628945, 2.910475472),
         (5.0, f64::NAN, 87.21375564, f64::NAN, 83.51656515),
     ] {
-        let speed: f64 = if speed.is_nan() { (1.0_f64 - 1.0 / (gamma * gamma)).sqrt() } else { speed };
+        let speed: f64 =
+            if speed.is_nan() { (1.0_f64 - 1.0 / (gamma * gamma)).sqrt() } else { speed };
         let doppler = gamma * (1.0 + speed);
         // The event (−r, r) of the scene relative to the eye is D times as far for the eye.
         let rests = (AHEAD - place, doppler);
@@ -35,7 +36,8 @@ fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
                 continue;
             }
             let distance = distance * gamma * (1.0 + speed);
-            let x = AHEAD * if velocity == 0.0 { 1.0 } else { (1.0_f64 - SPEED * SPEED).sqrt().recip() };
+            let x = AHEAD
+                * if velocity == 0.0 { 1.0 } else { (1.0_f64 - SPEED * SPEED).sqrt().recip() };
             let text = format!(
                 "motion ship -acc {G} 0 0; cam -ep 0 0 0 -vc 9 0 0 -ud 0 0 1 -va 5 <ship>; l 1;
                 v a {x} 0 0; v b {x} -9 -9; v c {x} 9 -9; v d {x} 0 9; f (b c d) <{velocity} 0 0>;
@@ -44,7 +46,10 @@ fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
             let config = options(DVec3::ZERO, own_time);
             let scene = seen(&text, &config);
             let at = scene.vertices[0].position;
-            assert!((at - distance * DVec3::X).length() < 1e-9 * distance, "{own_time}: {at} {distance}");
+            assert!(
+                (at - distance * DVec3::X).length() < 1e-9 * distance,
+                "{own_time}: {at} {distance}"
+            );
             let found = ugscene::measure(&scene, DVec3::ZERO, own_time)[0].doppler;
             assert!((found - doppler).abs() < 1e-9 * doppler, "{own_time}: {found} {doppler}");
 
@@ -53,13 +58,17 @@ fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
             (config.picture.size, config.picture.samples) = ([1, 1], 1);
             config.picture.channels = vec![Channel::Doppler, Channel::Distance];
             config.picture.output = ugphoton::Output::Color(ugimage::Format::Exr);
-            let frame = ugphoton::light(ugtests::scenes::parse(text.as_bytes()), &config).expect("a picture");
+            let frame = ugphoton::light(ugtests::scenes::parse(text.as_bytes()), &config)
+                .expect("a picture");
             let found = frame.planes().iter().map(|plane| match &plane.samples {
                 Samples::Float(numbers) => numbers[0],
                 Samples::Whole(_) => panic!("a real number"),
             });
             for (found, expected) in found.zip([doppler, distance]) {
-                assert!((f64::from(found) / expected - 1.0).abs() < 1.5e-7, "{own_time}: {found} {expected}");
+                assert!(
+                    (f64::from(found) / expected - 1.0).abs() < 1.5e-7,
+                    "{own_time}: {found} {expected}"
+                );
             }
         }
     }
@@ -68,7 +77,8 @@ fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
 /// Both renderers explain a pixel of a body that accelerates and spins alike.
 #[test]
 fn the_pipe_and_rays_explain_one_event() {
-    let text = "motion m -acc .2 .1 0 -9 9 -spin 0 .1 .2; v a -1 0 -1; v b 1 0 -1; v c 1 0 1; v d -1 0 1;
+    let text =
+        "motion m -acc .2 .1 0 -9 9 -spin 0 .1 .2; v a -1 0 -1; v b 1 0 -1; v c 1 0 1; v d -1 0 1;
         f (a b c d) <m>; cam -ep 0 -6 0 -vc 0 0 0 -ud 0 0 1 -va 40;";
     let (size, pixel, time) = ([32, 24], [14, 13], 5.0);
     let mut rays = ugphoton::Config::default();
@@ -86,13 +96,19 @@ fn the_pipe_and_rays_explain_one_event() {
     let mut pipe = ugrainbow::Config::default();
     (pipe.picture.size, pipe.picture.samples) = (size, 1);
     let (pipe, _) =
-        ugrainbow::explain::explain(&pipe, &ugparse::Source::new("pipe.ug", text), pixel).expect("one");
+        ugrainbow::explain::explain(&pipe, &ugparse::Source::new("pipe.ug", text), pixel)
+            .expect("one");
     let pipe = pipe.sample.expect("the body").own.surface;
 
-    let times = [pipe.own_time, rays.own_time].map(|own_time| own_time.expect("it is not inertial"));
+    let times =
+        [pipe.own_time, rays.own_time].map(|own_time| own_time.expect("it is not inertial"));
     assert!((times[0] - times[1]).abs() < 1e-3 && times[0].abs() > 0.1, "{times:?}");
-    let [seen, rest] = [[pipe.emission, rays.emission], [pipe.emission_at_rest, rays.emission_at_rest]]
-        .map(|events| events.map(|event| DVec3::from_array(event.x).extend(event.t.expect("a time"))));
+    let [seen, rest] =
+        [[pipe.emission, rays.emission], [pipe.emission_at_rest, rays.emission_at_rest]].map(
+            |events| {
+                events.map(|event| DVec3::from_array(event.x).extend(event.t.expect("a time")))
+            },
+        );
     assert!((seen[0] - seen[1]).truncate().length() < 1e-3 && pipe.gamma > 1.05, "{seen:?}");
     assert!((rest[0] - rest[1]).abs().max_element() < 1e-3 && rest[1].x.abs() > 0.5, "{rest:?}");
     // An event on the light cone is so in every frame.

@@ -18,7 +18,9 @@ fn world(random: &mut Random) -> World {
 /// The motions of a scene.
 fn motions(scene: &Scene) -> Vec<(String, ugphysics::WorldLine)> {
     let bodies = &scene.bodies;
-    let row = |body| (scene.names.get(bodies[body].name.unwrap()).to_string(), bodies.motion(body).clone());
+    let row = |body| {
+        (scene.names.get(bodies[body].name.unwrap()).to_string(), bodies.motion(body).clone())
+    };
     bodies.stated_by_name().map(row).collect()
 }
 
@@ -36,7 +38,10 @@ fn motions_survive_a_round_trip() {
         let scene = parse(lines.join("\n").as_bytes());
         let text = ugparse::write(&scene);
         let again = parse(&text);
-        assert_eq!(String::from_utf8(ugparse::write(&again)).unwrap(), String::from_utf8(text).unwrap());
+        assert_eq!(
+            String::from_utf8(ugparse::write(&again)).unwrap(),
+            String::from_utf8(text).unwrap()
+        );
         assert_eq!(motions(&again), motions(&scene));
         // As seen, with shifts.
         let config = uglorentz::Config {
@@ -48,7 +53,10 @@ fn motions_survive_a_round_trip() {
         let seen = pipe::lorentz_scene(lines.join("\n").as_bytes(), &config).unwrap().0;
         let text = ugparse::write(&seen);
         let again = parse(&text);
-        assert_eq!(String::from_utf8(ugparse::write(&again)).unwrap(), String::from_utf8(text).unwrap());
+        assert_eq!(
+            String::from_utf8(ugparse::write(&again)).unwrap(),
+            String::from_utf8(text).unwrap()
+        );
         assert_eq!(motions(&again), motions(&seen));
         let eye = config.eye.unwrap();
         let [here, there] = [&seen, &again].map(|scene| ugscene::measure(scene, eye, config.time));

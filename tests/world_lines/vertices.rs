@@ -21,7 +21,8 @@ fn check(world: &World, extra: &str, config: &uglorentz::Config, eye: &Observer)
     let mut n_found = 0;
     for (vertex, row) in scene.vertices.iter().zip(rows) {
         let name = scene.names.get(vertex.name);
-        let Some((triangle, corner)) = name.strip_prefix('p').and_then(|name| name.split_once('_')) else {
+        let Some((triangle, corner)) = name.strip_prefix('p').and_then(|name| name.split_once('_'))
+        else {
             continue;
         };
         let triangle = world.triangles[triangle.parse::<usize>().unwrap()];
@@ -130,10 +131,14 @@ fn is_near(found: f64, expected: f64) -> bool {
 
 #[test]
 fn numbers_of_high_precision_are_reproduced() {
-    for (row, (motion, point, [t, x, y, z], place, velocity, doppler)) in NUMBERS.into_iter().enumerate() {
+    for (row, (motion, point, [t, x, y, z], place, velocity, doppler)) in
+        NUMBERS.into_iter().enumerate()
+    {
         let [px, py, pz] = point;
-        let text =
-            format!("motion m {motion}; v a {px} {py} {pz}; v b {px} {py} {}; w (a b) <m>;", pz + 0.01);
+        let text = format!(
+            "motion m {motion}; v a {px} {py} {pz}; v b {px} {py} {}; w (a b) <m>;",
+            pz + 0.01
+        );
         let eye = DVec3::new(x, y, z);
         let config = options(eye, t);
         let text = pipe::lorentz(text.as_bytes(), &config);
@@ -143,7 +148,11 @@ fn numbers_of_high_precision_are_reproduced() {
         for k in 0..3 {
             assert!(is_near(seen[k], place[k]), "W{}: seen at {seen:?}, not {place:?}", row + 1);
             let found = row_a.velocity;
-            assert!(is_near(found[k], velocity[k]), "W{}: velocity {found:?}, not {velocity:?}", row + 1);
+            assert!(
+                is_near(found[k], velocity[k]),
+                "W{}: velocity {found:?}, not {velocity:?}",
+                row + 1
+            );
         }
         assert!(is_near(row_a.doppler, doppler), "W{}: {} {doppler}", row + 1, row_a.doppler);
     }
@@ -152,11 +161,11 @@ fn numbers_of_high_precision_are_reproduced() {
 /// The same for a camera with constant acceleration: time, place of a point at rest, D.
 #[test]
 fn numbers_of_an_accelerated_camera_are_reproduced() {
-    let text =
-        "motion ship -acc 0 .2 0 0 10; cam -ep 0 0 0 -vc 0 9 0 <ship>; v a 1 30 2; v b 1 30 3; w (a b);";
-    for (time, place, doppler) in
-        [(2.0, [1.0, 44.1846609207, 2.0], 1.4906572448), (10.0, [1.0, 120.17902252, 2.0], 7.35494707534)]
-    {
+    let text = "motion ship -acc 0 .2 0 0 10; cam -ep 0 0 0 -vc 0 9 0 <ship>; v a 1 30 2; v b 1 30 3; w (a b);";
+    for (time, place, doppler) in [
+        (2.0, [1.0, 44.1846609207, 2.0], 1.4906572448),
+        (10.0, [1.0, 120.17902252, 2.0], 7.35494707534),
+    ] {
         let config = options(DVec3::ZERO, time);
         let scene = parse(&pipe::lorentz(text.as_bytes(), &config));
         let seen = scene.vertices[0].position;

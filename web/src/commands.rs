@@ -59,7 +59,8 @@ impl Commands {
 
     /// The pipe that draws.
     pub fn pipe(&self) -> Pipe {
-        let mut pipe = Pipe::new(self.parsed.iter().map(|command| command.program.clone()).collect());
+        let mut pipe =
+            Pipe::new(self.parsed.iter().map(|command| command.program.clone()).collect());
         pipe.lines = self.parsed.iter().map(|command| command.line.clone()).collect();
         pipe
     }

@@ -105,8 +105,9 @@ impl Studio {
     /// # Errors
     /// `commands` is not a list of lists of words.
     pub fn line(commands: &str) -> Result<String, String> {
-        let line =
-            |words: &Vec<String>| words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ");
+        let line = |words: &Vec<String>| {
+            words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
+        };
         Ok(commands::words(commands)?.iter().map(line).collect::<Vec<_>>().join(" | "))
     }
 

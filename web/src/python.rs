@@ -39,7 +39,8 @@ fn keyword(entry: &Entry) -> String {
 
 /// `keyword=value`
 fn argument(entry: &Entry, values: &[&str]) -> String {
-    let value = |word: &&str| if word.parse::<f64>().is_ok() { (*word).to_owned() } else { text(word) };
+    let value =
+        |word: &&str| if word.parse::<f64>().is_ok() { (*word).to_owned() } else { text(word) };
     let values: Vec<String> = values.iter().map(value).collect();
     let value = match &values[..] {
         [] => "True".to_owned(),
@@ -55,8 +56,9 @@ impl Call {
         let find = |word: &str| {
             let name = word.trim_start_matches('-');
             let is_option = name.len() < word.len();
-            let has_name =
-                |entry: &&Entry| entry.names.iter().any(|known| known.trim_start_matches('-') == name);
+            let has_name = |entry: &&Entry| {
+                entry.names.iter().any(|known| known.trim_start_matches('-') == name)
+            };
             entries().find(has_name).filter(|_| is_option)
         };
         let mut call = Self::default();
@@ -71,7 +73,8 @@ impl Call {
             let mut values = Vec::new();
             // Beyond those that are needed only numbers are values, so that a file may follow.
             let suits = |next: &str, count: usize| {
-                find(next).is_none() && (count < least || count < most && next.parse::<f64>().is_ok())
+                find(next).is_none()
+                    && (count < least || count < most && next.parse::<f64>().is_ok())
             };
             while let Some(value) = words.next_if(|next| suits(next, values.len())) {
                 values.push(value);
@@ -99,7 +102,8 @@ pub fn lines<'c>(commands: impl Iterator<Item = (&'c [String], Manual)>) -> Stri
             chain = format!("picture = ug.warp({})", all([files, options]));
         } else {
             if chain.is_empty() {
-                chain = format!("scene = ug.Scene.read({})\npicture = scene", all([files, reading]));
+                chain =
+                    format!("scene = ug.Scene.read({})\npicture = scene", all([files, reading]));
             }
             chain += &format!(".{method}({})", options.join(", "));
         }

@@ -38,12 +38,15 @@ impl Seen {
     fn new(pipe: &Pipe, scene: &Scene) -> Self {
         let motion = pipe.programs().iter().find_map(Program::motion).unwrap_or_default();
         let mut camera = match pipe.programs().first() {
-            Some(Program::Lorentz(config)) => CameraOptions { eye: config.eye, ..config.camera.clone() },
+            Some(Program::Lorentz(config)) => {
+                CameraOptions { eye: config.eye, ..config.camera.clone() }
+            }
             _ => pipe.picture.camera.clone(),
         };
         let size = pipe.picture.size;
         // An invalid camera is refused when it draws.
-        if let Ok(Some(fitted)) = common_camera(scene, &camera, size, std::slice::from_ref(&motion)) {
+        if let Ok(Some(fitted)) = common_camera(scene, &camera, size, std::slice::from_ref(&motion))
+        {
             camera.eye = Some(fitted.eye);
             camera.center = Some(fitted.center);
         }
@@ -65,15 +68,22 @@ impl Subject {
             let args: ugwarp::Args = parse_words(commands.first().iter().map(OsString::from))?;
             let input = context.input()?;
             let opened = args.open(&input, context)?;
-            let notes = opened.notes.iter().map(|note| format!("{}: {note}", commands.program())).collect();
+            let notes =
+                opened.notes.iter().map(|note| format!("{}: {note}", commands.program())).collect();
             let origin = opened.origin(&input, context);
-            return Ok(Self { key, kind: Kind::Sky(Box::new(opened), origin), sky: SkySource::None, notes });
+            return Ok(Self {
+                key,
+                kind: Kind::Sky(Box::new(opened), origin),
+                sky: SkySource::None,
+                notes,
+            });
         }
         let reading = pipe::options(&commands.common)?;
         let source = pipe::read(context, &reading)?;
         let parsed = ugparse::read(&source, &reading, commands.camera()).map_err(pipe::refused)?;
         let is_warned = !parsed.warnings.is_empty();
-        let notes = is_warned.then(|| format!("{}: {}", commands.program(), parsed.warnings.report()));
+        let notes =
+            is_warned.then(|| format!("{}: {}", commands.program(), parsed.warnings.report()));
         let boxes = BodyBoxes::new(&parsed.scene);
         let mut pipe = commands.pipe();
         if let Some(sky) = pipe.sky() {
@@ -109,7 +119,9 @@ impl Subject {
         {
             let Seen { motion, camera, size } = Seen::new(pipe, scene);
             let note = boxes.note(scene, &motion, &camera, size);
-            notes.extend(note.map(|note| format!("{}: {}", first.provenance().program, note.words())));
+            notes.extend(
+                note.map(|note| format!("{}: {}", first.provenance().program, note.words())),
+            );
         }
         notes
     }
@@ -122,7 +134,8 @@ impl Subject {
         let eye = camera.eye.or(own.eye).unwrap_or_default();
         let center = camera.center.or(own.center).unwrap_or_default();
         let up = camera.up.or(own.up).map_or([0.0, 0.0, 1.0], |up| up.to_array());
-        let angle = camera.view_angle.map(|(across, _)| across).or(own.view_angle.map(|angles| angles[0]));
+        let angle =
+            camera.view_angle.map(|(across, _)| across).or(own.view_angle.map(|angles| angles[0]));
         let times = boxes.times_in_view(&motion, &camera, size).ok().flatten();
         json!({
             "kind": "scene",

@@ -40,7 +40,8 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     for (path, size) in PAGES.into_iter().filter(|(path, _)| is_wanted(path)) {
         let page = Page::read(path);
         let has_small = page.text.contains(&format!("/{SMALL}/"));
-        for (scale, part) in [(1.0, ""), (0.5, SMALL)].into_iter().take(1 + usize::from(has_small)) {
+        for (scale, part) in [(1.0, ""), (0.5, SMALL)].into_iter().take(1 + usize::from(has_small))
+        {
             let folder = tempfile::tempdir()?;
             prepare(folder.path(), &programs);
             for command in &page.commands {
@@ -48,7 +49,8 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
                 out.flush()?;
                 let command = resized(command, size, scale);
                 // Films are packed as they are.
-                let command = if command.contains(".gif") { command } else { with_options(&command, "-pz") };
+                let command =
+                    if command.contains(".gif") { command } else { with_options(&command, "-pz") };
                 page.run(&command, folder.path(), &programs).map_err(io::Error::other)?;
             }
             store(&page, folder.path(), part)?;

@@ -64,9 +64,17 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
         }
         out.flush()?;
         let (n_run, seconds) = (seeds.end - args.first, begun.elapsed().as_secs());
-        writeln!(io::stderr(), "{n_run} of {} cases, {n_findings} findings, {seconds} s", args.cases)?;
+        writeln!(
+            io::stderr(),
+            "{n_run} of {} cases, {n_findings} findings, {seconds} s",
+            args.cases
+        )?;
     }
     let seconds = begun.elapsed().as_secs_f64();
-    writeln!(out, "{} cases, {n_drawn} pipes succeed, {n_findings} findings, {seconds:.0} s", args.cases)?;
+    writeln!(
+        out,
+        "{} cases, {n_drawn} pipes succeed, {n_findings} findings, {seconds:.0} s",
+        args.cases
+    )?;
     if n_findings > 0 { Err(io::Error::other("something does not hold")) } else { Ok(()) }
 }

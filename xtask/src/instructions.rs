@@ -41,11 +41,15 @@ pub struct Args {
 pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
     let table = std::fs::read_to_string(TABLE)?;
     let (head, rows) = table.split_once('\n').ok_or("the table has no rows")?;
-    let rows: Vec<[&str; 4]> = rows.lines().map(cells).collect::<Option<_>>().ok_or("a row has 4 cells")?;
+    let rows: Vec<[&str; 4]> =
+        rows.lines().map(cells).collect::<Option<_>>().ok_or("a row has 4 cells")?;
     let programs = programs::released();
     let folder = tempfile::tempdir()?;
     write_scenes(folder.path())?;
-    writeln!(out, "| work | instructions, millions | in the table | ratio |\n| --- | ---: | ---: | ---: |")?;
+    writeln!(
+        out,
+        "| work | instructions, millions | in the table | ratio |\n| --- | ---: | ---: | ---: |"
+    )?;
     let (mut blessed, mut raised) = (format!("{head}\n"), Vec::new());
     for [work, command, before, why] in rows {
         if !command.contains(&args.only) {
@@ -64,9 +68,10 @@ pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
         std::fs::write(TABLE, blessed)?;
     } else if !raised.is_empty() {
         let raised = raised.join(", ");
-        return Err(
-            format!("more instructions than in {TABLE}: {raised}; who raises a row says why in it").into()
-        );
+        return Err(format!(
+            "more instructions than in {TABLE}: {raised}; who raises a row says why in it"
+        )
+        .into());
     }
     Ok(())
 }
@@ -86,7 +91,8 @@ pub fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
         .output()
         .map_err(|error| format!("valgrind (the Debian package valgrind): {error}"))?;
     let text = String::from_utf8_lossy(&output.stderr);
-    let counted = text.lines().find_map(|line| line.split_once("Collected : ")?.1.parse::<f64>().ok());
+    let counted =
+        text.lines().find_map(|line| line.split_once("Collected : ")?.1.parse::<f64>().ok());
     match counted.filter(|_| output.status.success()) {
         Some(counted) => Ok(counted / 1e6),
         None => Err(format!("`{command}` failed: {text}").into()),
@@ -96,8 +102,9 @@ pub fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
 fn write_scenes(folder: &Path) -> Outcome<()> {
     std::fs::write(folder.join("mesh.ug"), Mesh::of_rows(60).scene(false)?)?;
     std::fs::write(folder.join("cubes.ug"), cubes()?)?;
-    let pixel =
-        |x: u32, y: u32| Rgb([0, 1, 2].map(|shift| (((x * 7 + y * 3) ^ ((x * y) >> 4)) >> shift) as u8));
+    let pixel = |x: u32, y: u32| {
+        Rgb([0, 1, 2].map(|shift| (((x * 7 + y * 3) ^ ((x * y) >> 4)) >> shift) as u8))
+    };
     Ok(RgbImage::from_fn(2048, 1024, pixel).save(folder.join("panorama.png"))?)
 }
 
@@ -107,7 +114,8 @@ fn cubes() -> Result<String, std::fmt::Error> {
     for k in 0..8 {
         writeln!(text, "v c{k} {} {} {} ;", k & 1, k >> 1 & 1, k >> 2 & 1)?;
     }
-    let sides = ["c0 c2 c3 c1", "c4 c5 c7 c6", "c0 c1 c5 c4", "c2 c6 c7 c3", "c0 c4 c6 c2", "c1 c3 c7 c5"];
+    let sides =
+        ["c0 c2 c3 c1", "c4 c5 c7 c6", "c0 c1 c5 c4", "c2 c6 c7 c3", "c0 c4 c6 c2", "c1 c3 c7 c5"];
     for (k, corners) in sides.into_iter().enumerate() {
         writeln!(text, "f s{k} ({corners}) {} ;", if k % 2 == 1 { "red" } else { "blue" })?;
     }

@@ -160,7 +160,9 @@ fn run(task: &Task) -> Outcome<()> {
             writeln!(out, "{mesh}cam -ep 5 3 2 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;")?;
         }
         Task::Bench { words } => scripts::bench(words)?,
-        Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
+        Task::TraceRays { work, triangles, times } => {
+            rays::write(&mut out, *work, *triangles, *times)?
+        }
         Task::Instructions(args) => instructions::write(&mut out, args)?,
         Task::Scaling(args) => scaling::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,

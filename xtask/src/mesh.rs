@@ -23,7 +23,8 @@ impl Mesh {
     pub fn of_rows(n: u32) -> Self {
         let n_columns = 2 * n;
         let position = |i: u32, j: u32| {
-            let (theta, phi) = (PI * f64::from(i) / f64::from(n), TAU * f64::from(j) / f64::from(n_columns));
+            let (theta, phi) =
+                (PI * f64::from(i) / f64::from(n), TAU * f64::from(j) / f64::from(n_columns));
             let radius = 1.0 + 0.1 * libm::sin(7.0 * theta) * libm::cos(5.0 * phi);
             let [x, y] = [libm::cos(phi), libm::sin(phi)].map(|part| libm::sin(theta) * part);
             radius * DVec3::new(x, y, libm::cos(theta))
@@ -61,7 +62,8 @@ impl Mesh {
         }
         for [a, b, c] in &self.triangles {
             let (row, column) = (a / self.n_columns, a % self.n_columns);
-            let color = if has_own_colors { String::new() } else { format!("k{}", (row + column) % 36) };
+            let color =
+                if has_own_colors { String::new() } else { format!("k{}", (row + column) % 36) };
             writeln!(text, "f (v{a} v{b} v{c}) {color};")?;
         }
         Ok(text)
@@ -81,8 +83,10 @@ mod tests {
         let last = mesh.positions.len() as u32 - 12;
         // The vertices of a pole are one.
         let vertex = |row: u32| if row < 12 { 0 } else { row.min(last) };
-        let sides = |[a, b, c]: [u32; 3]| [(a, b), (b, c), (c, a)].map(|(a, b)| (vertex(a), vertex(b)));
-        let edges: BTreeSet<_> = mesh.triangles.iter().flat_map(|&triangle| sides(triangle)).collect();
+        let sides =
+            |[a, b, c]: [u32; 3]| [(a, b), (b, c), (c, a)].map(|(a, b)| (vertex(a), vertex(b)));
+        let edges: BTreeSet<_> =
+            mesh.triangles.iter().flat_map(|&triangle| sides(triangle)).collect();
         assert_eq!(edges.len(), 3 * mesh.triangles.len());
         assert!(edges.iter().all(|&(a, b)| edges.contains(&(b, a))));
     }

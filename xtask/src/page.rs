@@ -88,8 +88,9 @@ fn use_toolchain(cargo: &mut Command, toolchain: &Path) -> io::Result<()> {
         cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker);
     }
     let below = entries(&lib)?.into_iter().flat_map(|folder| [folder.join("lib"), folder]);
-    let libraries = below
-        .filter(|folder| entries(folder).is_ok_and(|files| files.iter().any(|file| has_ending(file, ".so"))));
+    let libraries = below.filter(|folder| {
+        entries(folder).is_ok_and(|files| files.iter().any(|file| has_ending(file, ".so")))
+    });
     cargo.env("LD_LIBRARY_PATH", std::env::join_paths(libraries).map_err(io::Error::other)?);
     if !lib.join("rustlib").join(TARGET).exists() {
         cargo.arg("-Zbuild-std=std,panic_abort").env("RUSTC_BOOTSTRAP", "1");
@@ -101,13 +102,17 @@ fn use_toolchain(cargo: &mut Command, toolchain: &Path) -> io::Result<()> {
 /// the JavaScript.
 fn bind(folder: &Path, module: &Path) -> io::Result<String> {
     let lock = fs::read_to_string(root().join("Cargo.lock"))?;
-    let version =
-        lock.split("name = \"wasm-bindgen\"\nversion = \"").nth(1).and_then(|rest| rest.split('"').next());
+    let version = lock
+        .split("name = \"wasm-bindgen\"\nversion = \"")
+        .nth(1)
+        .and_then(|rest| rest.split('"').next());
     let version = version.ok_or_else(|| io::Error::other("Cargo.lock has no wasm-bindgen"))?;
     let tools = folder.join("tools");
     let tool = tools.join("bin/wasm-bindgen");
     let installed = Command::new(&tool).arg("--version").output();
-    if !installed.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).trim().ends_with(version)) {
+    if !installed
+        .is_ok_and(|output| String::from_utf8_lossy(&output.stdout).trim().ends_with(version))
+    {
         let mut install = Command::new(env!("CARGO"));
         install.args("install wasm-bindgen-cli --no-default-features --version".split(' '));
         run(install.args([version, "--root"]).arg(&tools))?;
@@ -147,5 +152,9 @@ fn test(folder: &Path, page: &Path) -> io::Result<()> {
     run(&mut npm)?;
     let script = folder.join("test.mjs");
     fs::copy(root().join("web/test.mjs"), &script)?;
-    run(Command::new("node").arg(script).arg(page).arg(programs::released()).arg(root().join("scenes")))
+    run(Command::new("node")
+        .arg(script)
+        .arg(page)
+        .arg(programs::released())
+        .arg(root().join("scenes")))
 }

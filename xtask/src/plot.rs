@@ -166,7 +166,10 @@ impl Panel {
                 }
                 Mark::Arrow([from, to], color) => {
                     let (neck, head) = arrow_head([*from, *to]);
-                    chart.draw_series([PathElement::new(places(&[*from, neck]), lines(*color, 2))])?;
+                    chart.draw_series([PathElement::new(
+                        places(&[*from, neck]),
+                        lines(*color, 2),
+                    )])?;
                     chart.draw_series([Polygon::new(places(&head), color.filled())])?;
                 }
                 Mark::Text([x, y], words, color) => {
@@ -200,7 +203,8 @@ impl Ranged for Axis {
     }
 
     fn range(&self) -> Range<f64> {
-        let ends = [self.ticks.first(), self.ticks.last()].map(|end| end.copied().unwrap_or_default());
+        let ends =
+            [self.ticks.first(), self.ticks.last()].map(|end| end.copied().unwrap_or_default());
         ends[0]..ends[1]
     }
 }

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use glam::DVec3;
 use plotters::style::{BLACK, RGBColor};
-use ugphysics::{CONTROL_POINTS, Hsv, Velocity, VelocityError, aberrate, attenuation, wavelength_to_hue};
+use ugphysics::{
+    CONTROL_POINTS, Hsv, Velocity, VelocityError, aberrate, attenuation, wavelength_to_hue,
+};
 
 use crate::plot::{Axis, COLORS, Mark, Panel, Plot};
 
@@ -23,7 +25,8 @@ pub fn write(folder: &Path) -> Result<(), Box<dyn Error>> {
     emission()?.write(folder, "chang-01-aberration")?;
     fields_of_view("2: camera looking forward", 1.0, 180)?
         .write(folder, "howard-02-field-of-view-forward")?;
-    fields_of_view("3: camera looking backward", -1.0, 0)?.write(folder, "howard-03-field-of-view-backward")
+    fields_of_view("3: camera looking backward", -1.0, 0)?
+        .write(folder, "howard-03-field-of-view-backward")
 }
 
 fn single(title: &str, axes: [Axis; 2], marks: Vec<Mark>) -> Plot {
@@ -47,12 +50,9 @@ fn hues() -> Plot {
         })
         .collect();
     marks.push(Mark::Dots(CONTROL_POINTS.map(|c| [c.wavelength_nm, c.hue_deg]).to_vec(), BLACK));
-    marks.extend(
-        CONTROL_POINTS
-            .iter()
-            .zip(NAMES)
-            .map(|(c, name)| Mark::Text([c.wavelength_nm + 6.0, c.hue_deg + 16.0], name.to_owned(), BLACK)),
-    );
+    marks.extend(CONTROL_POINTS.iter().zip(NAMES).map(|(c, name)| {
+        Mark::Text([c.wavelength_nm + 6.0, c.hue_deg + 16.0], name.to_owned(), BLACK)
+    }));
     let axes = [
         Axis::new("wavelength, nm", &[380.0, 435.8, 505.0, 546.1, 605.0, 700.0, 780.0, 830.0]),
         Axis::new("hue, degrees", &[-60.0, 0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 330.0]),
@@ -62,7 +62,8 @@ fn hues() -> Plot {
 
 /// Nguyen 1988, figure 3.3.2: how much of a hue is seen.  Eq. (P17)
 fn visibility() -> Plot {
-    let points = (1700..=4100).map(|fifth| f64::from(fifth) / 5.0).map(|nm| [nm, attenuation(nm)]).collect();
+    let points =
+        (1700..=4100).map(|fifth| f64::from(fifth) / 5.0).map(|nm| [nm, attenuation(nm)]).collect();
     let axes = [
         Axis::new("wavelength, nm", &[340.0, 380.0, 435.8, 500.0, 600.0, 700.0, 780.0, 820.0]),
         Axis::new("attenuation", &[0.0, 0.25, 0.5, 0.75, 1.0, 1.1]),
@@ -159,7 +160,10 @@ fn one_ray(title: &str, angle: f64, name: &str) -> Panel {
 fn many_rays(title: &str, angles: Vec<f64>) -> Panel {
     directions(
         title,
-        angles.into_iter().map(|angle| Mark::Arrow([[0.0; 2], polar(1.1, angle)], COLORS[1])).collect(),
+        angles
+            .into_iter()
+            .map(|angle| Mark::Arrow([[0.0; 2], polar(1.1, angle)], COLORS[1]))
+            .collect(),
     )
 }
 
@@ -175,7 +179,10 @@ mod tests {
             let gamma_beta = beta / libm::sqrt(1.0 - beta * beta);
             for side in [1.0, -1.0] {
                 let paper = std::f64::consts::PI + side * 2.0 * libm::atan(gamma_beta);
-                assert!((field_of_view(beta, side).unwrap() - paper).abs() < 1e-13, "{beta} {side}");
+                assert!(
+                    (field_of_view(beta, side).unwrap() - paper).abs() < 1e-13,
+                    "{beta} {side}"
+                );
             }
         }
     }

@@ -62,7 +62,8 @@ pub fn write(out: &mut impl Write) -> io::Result<()> {
     let mdbook = tools.join("bin/mdbook");
     if !mdbook.exists() {
         let mut cargo = Command::new(env!("CARGO"));
-        let options = ["install", "--quiet", "--no-default-features", "--features", "search", "--root"];
+        let options =
+            ["install", "--quiet", "--no-default-features", "--features", "search", "--root"];
         run(cargo.args(options).arg(&tools).arg(MDBOOK))?;
     }
     run(Command::new(mdbook).arg("build").arg(&site))?;
@@ -107,13 +108,17 @@ fn check_links(book: &Path) -> io::Result<()> {
                 continue;
             }
             // Paths in the page for errors start at the folder of the site.
-            if path.extension().is_none_or(|ending| ending != "html") || path.ends_with("404.html") {
+            if path.extension().is_none_or(|ending| ending != "html") || path.ends_with("404.html")
+            {
                 continue;
             }
             let text = fs::read_to_string(&path)?;
             let targets = text.split([' ', '\n']).filter_map(|word| {
                 let value = word.strip_prefix("href=\"").or_else(|| word.strip_prefix("src=\""))?;
-                value.split(['"', '#']).next().filter(|target| !target.is_empty() && !target.contains(':'))
+                value
+                    .split(['"', '#'])
+                    .next()
+                    .filter(|target| !target.is_empty() && !target.contains(':'))
             });
             for target in targets {
                 n_links += 1;

@@ -30,7 +30,8 @@ fn names() -> clap::builder::PossibleValuesParser {
 /// Checks the laws and writes what does not hold; progress goes to standard error. Fails if
 /// anything was found.
 pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
-    let is_wanted = |law: &&Law| args.law.is_empty() || args.law.iter().any(|name| name == law.name);
+    let is_wanted =
+        |law: &&Law| args.law.is_empty() || args.law.iter().any(|name| name == law.name);
     let laws: Vec<&Law> = LAWS.iter().filter(is_wanted).collect();
     let begun = Instant::now();
     let mut n_findings = vec![0; laws.len()];
@@ -59,7 +60,15 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
         )?;
     }
     for ((law, n_findings), seconds) in laws.iter().zip(&n_findings).zip(&seconds) {
-        writeln!(out, "{:26} {n_findings:6} of {} worlds fail, {seconds:.0} s", law.name, args.count)?;
+        writeln!(
+            out,
+            "{:26} {n_findings:6} of {} worlds fail, {seconds:.0} s",
+            law.name, args.count
+        )?;
     }
-    if n_findings.iter().sum::<usize>() > 0 { Err(io::Error::other("a law does not hold")) } else { Ok(()) }
+    if n_findings.iter().sum::<usize>() > 0 {
+        Err(io::Error::other("a law does not hold"))
+    } else {
+        Ok(())
+    }
 }

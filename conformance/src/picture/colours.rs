@@ -25,8 +25,9 @@ const PATCH: u32 = 100;
 
 /// Measures both rows of patches.
 pub fn measure_patches(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
-    let center =
-        |patch: usize, row: u32| picture.color(PATCH * patch as u32 + PATCH / 2, PATCH * row + PATCH / 2);
+    let center = |patch: usize, row: u32| {
+        picture.color(PATCH * patch as u32 + PATCH / 2, PATCH * row + PATCH / 2)
+    };
     let mut measurements = Vec::new();
     for (patch, (body, luminance)) in BLACK_BODIES.into_iter().zip(LUMINANCES).enumerate() {
         let color = center(patch, 0);
@@ -71,8 +72,9 @@ pub fn measure_moving(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String
 fn measure_body(color: [u8; 3], (name, right): (&str, [f64; 2])) -> [MeasuredQuantity; 2] {
     let levels = color.map(f64::from);
     let (xy, tolerance) = (chromaticity(levels), rounding(levels));
-    [("x", 0), ("y", 1)]
-        .map(|(axis, i)| MeasuredQuantity::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i]))
+    [("x", 0), ("y", 1)].map(|(axis, i)| {
+        MeasuredQuantity::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i])
+    })
 }
 
 /// Measures the luminance of a patch, relative to white.
@@ -161,7 +163,12 @@ pub fn measure_shift(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String>
     let [rest, coming] = [width / 4, 3 * width / 4].map(|x| picture.color(x, height / 2));
     let lit = f64::from(rest.into_iter().max().unwrap_or(0));
     Ok(vec![
-        MeasuredQuantity::new("difference of both squares, levels", difference(rest, coming), 0.0, 3.0),
+        MeasuredQuantity::new(
+            "difference of both squares, levels",
+            difference(rest, coming),
+            0.0,
+            3.0,
+        ),
         // Two black squares would be equal, too.
         MeasuredQuantity::at_least("brightest channel of the square at rest, level", lit, 64.0),
     ])

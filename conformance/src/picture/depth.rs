@@ -35,7 +35,12 @@ pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
             green_width,
             1.2,
         ),
-        MeasuredQuantity::new("red square next to it, width in pixels", red, red_width - green_width, 2.2),
+        MeasuredQuantity::new(
+            "red square next to it, width in pixels",
+            red,
+            red_width - green_width,
+            2.2,
+        ),
         MeasuredQuantity::new("blue square behind the red one, pixels", blue, 0.0, 0.0),
     ])
 }

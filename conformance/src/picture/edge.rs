@@ -32,6 +32,11 @@ pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
         MeasuredQuantity::new("mean distance from the hyperbola, pixels", mean / pixel, 0.0, 0.15),
         // Half a pixel for the position of the row, and up to a third for a program's bound of
         // subdivision.
-        MeasuredQuantity::new("largest distance from the hyperbola, pixels", worst / pixel, 0.0, 1.0),
+        MeasuredQuantity::new(
+            "largest distance from the hyperbola, pixels",
+            worst / pixel,
+            0.0,
+            1.0,
+        ),
     ])
 }

@@ -35,7 +35,11 @@ pub fn objects() -> Result<String, String> {
             let beta = velocity.beta();
             let (color, hue_deg) = described(value);
             // Writing to a string cannot fail.
-            let _ = write!(table, "{},{name},{:?},{:?},{:?},{color}", case.name, beta.x, beta.y, beta.z);
+            let _ = write!(
+                table,
+                "{},{name},{:?},{:?},{:?},{color}",
+                case.name, beta.x, beta.y, beta.z
+            );
             let _ = match hue_deg {
                 Some(hue) => writeln!(table, ",{hue:?},{:?}", hue_to_wavelength(hue)),
                 None => writeln!(table, ",,"),
@@ -80,9 +84,10 @@ fn described(value: ColorValue) -> (String, Option<f64>) {
 /// # Errors
 /// A scene is invalid. There is none in the suite.
 pub fn cameras() -> Result<String, String> {
-    let mut table = "case,width,height,eye_x,eye_y,eye_z,centre_x,centre_y,centre_z,up_x,up_y,up_z,\
+    let mut table =
+        "case,width,height,eye_x,eye_y,eye_z,centre_x,centre_y,centre_z,up_x,up_y,up_z,\
                      lens,horizontal_view_angle_deg\n"
-        .to_string();
+            .to_string();
     for case in &CASES {
         let scene = case.parsed()?;
         let missing = || format!("the scene `{}` has no camera", case.name);

@@ -11,11 +11,15 @@ type Mistake = (&'static str, fn(&mut Scene, &mut uglorentz::Config));
 
 /// The mistakes that this project's programs can be made to draw.
 const DRAWN: [Mistake; 6] = [
-    ("M1", |_, config| config.geometry = ShownEffects { flight_time: false, ..ShownEffects::default() }),
+    ("M1", |_, config| {
+        config.geometry = ShownEffects { flight_time: false, ..ShownEffects::default() }
+    }),
     ("M2", |scene, _| change_velocities(scene, without_root)),
     ("M3", |scene, _| change_velocities(scene, |velocity| -velocity)),
     ("M7", |scene, _| change_velocities(scene, |velocity| compose(velocity, velocity))),
-    ("M9", |_, config| config.geometry = ShownEffects { contraction: false, ..ShownEffects::default() }),
+    ("M9", |_, config| {
+        config.geometry = ShownEffects { contraction: false, ..ShownEffects::default() }
+    }),
     ("M13", |_, config| config.pieces = uglorentz::Pieces::PerEdge(1)),
 ];
 
@@ -48,7 +52,9 @@ pub fn recognized(case: &PictureCase, png: &[u8]) -> Vec<&'static str> {
         match (&measured, case.measure(&drawn)) {
             (Ok(measured), Ok(wrong)) => {
                 let is_wrong = !wrong.iter().all(MeasuredQuantity::passes);
-                is_wrong && wrong.len() == measured.len() && measured.iter().zip(&wrong).all(are_equal)
+                is_wrong
+                    && wrong.len() == measured.len()
+                    && measured.iter().zip(&wrong).all(are_equal)
             }
             (Err(_), Err(_)) => common_part(png, &drawn).is_some_and(|part| part > COMMON),
             _ => false,

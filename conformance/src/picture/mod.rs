@@ -205,7 +205,10 @@ impl PictureCase {
         let [width, height] = self.size;
         if pixels.dimensions() != (width, height) {
             let (w, h) = pixels.dimensions();
-            return Err(format!("the picture is {w} x {h} pixels; `{}` is {width} x {height}", self.name));
+            return Err(format!(
+                "the picture is {w} x {h} pixels; `{}` is {width} x {height}",
+                self.name
+            ));
         }
         let brightest = pixels.as_raw().iter().copied().max().unwrap_or(0);
         (self.measure)(&Picture { pixels, brightest, camera: self.camera()? })
@@ -244,14 +247,19 @@ impl PictureCase {
     }
 
     /// `change`: makes a mistake.
-    fn draw_by_pipe(&self, change: impl Fn(&mut Scene, &mut uglorentz::Config)) -> Result<Vec<u8>, String> {
+    fn draw_by_pipe(
+        &self,
+        change: impl Fn(&mut Scene, &mut uglorentz::Config),
+    ) -> Result<Vec<u8>, String> {
         let mut parsed = ugparse::parse(&self.source("uglorentz"), &Options::default())
             .map_err(|error| error.to_string())?;
         let mut lorentz = uglorentz::Config::default();
         change(&mut parsed.scene, &mut lorentz);
-        let (seen, _) = uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
+        let (seen, _) =
+            uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
         // `-vr`: faces of one body keep their own colours.
-        let doppler = ugdoppler::Config { repeat: true, shift: self.color_shift(), ..Default::default() };
+        let doppler =
+            ugdoppler::Config { repeat: true, shift: self.color_shift(), ..Default::default() };
         let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;
         let rainbow = ugrainbow::Config { picture: self.picture_options(), ..Default::default() };
         let source = Source::new(self.input_of("ugrainbow"), ugparse::write(&colored));
@@ -278,7 +286,11 @@ impl PictureCase {
     }
 
     fn picture_options(&self) -> PictureOptions {
-        PictureOptions { size: self.size, samples: self.options.samples, ..PictureOptions::default() }
+        PictureOptions {
+            size: self.size,
+            samples: self.options.samples,
+            ..PictureOptions::default()
+        }
     }
 
     fn source(&self, program: &str) -> Source {

@@ -15,14 +15,20 @@ struct Circle {
 }
 
 /// Seen perpendicular to the motion in the frame of the sphere: T11.01.
-const ABEAM: Circle =
-    Circle { radius_deg: 8.760_949_008, axis_deg: 152.810_381_4, polyhedron_deg: [3.5e-4 * 8.76, 0.0] };
+const ABEAM: Circle = Circle {
+    radius_deg: 8.760_949_008,
+    axis_deg: 152.810_381_4,
+    polyhedron_deg: [3.5e-4 * 8.76, 0.0],
+};
 
 /// Seen at 30° from the motion in the frame of the sphere: T11.04. There the sagitta is 0.007°.
 /// Aberration enlarges it 3.8 times on the side of the motion, and 1.05 times on the other. Half
 /// the sum is missing in the radius, and half the difference is the error of the axis.
-const LARGE: Circle =
-    Circle { radius_deg: 41.646_166_84, axis_deg: 85.409_969_56, polyhedron_deg: [0.007 * 2.4, 0.007 * 1.4] };
+const LARGE: Circle = Circle {
+    radius_deg: 41.646_166_84,
+    axis_deg: 85.409_969_56,
+    polyhedron_deg: [0.007 * 2.4, 0.007 * 1.4],
+};
 
 pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     measure_circle(picture, &ABEAM)
@@ -44,7 +50,12 @@ fn measure_circle(picture: &Picture, expected: &Circle) -> Result<Vec<MeasuredQu
     let mean = 0.1 * pixel_deg;
     let [smaller_deg, turned_deg] = expected.polyhedron_deg;
     Ok(vec![
-        MeasuredQuantity::new("angular radius, degrees", radius_deg, expected.radius_deg, mean + smaller_deg),
+        MeasuredQuantity::new(
+            "angular radius, degrees",
+            radius_deg,
+            expected.radius_deg,
+            mean + smaller_deg,
+        ),
         MeasuredQuantity::new(
             "axis of the circle from the motion, degrees",
             axis_deg,

@@ -25,7 +25,10 @@ fn readme() -> String {
 fn the_suite_is_complete() {
     let topics = topics().unwrap();
     let names: Vec<String> = (1..=38).map(|number| format!("T{number:02}")).collect();
-    assert_eq!(topics.iter().map(|topic| &topic.name).collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
+    assert_eq!(
+        topics.iter().map(|topic| &topic.name).collect::<Vec<_>>(),
+        names.iter().collect::<Vec<_>>()
+    );
     let cases = cases();
     assert!(cases.len() >= LEAST_CASES, "{}", cases.len());
     let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
@@ -153,6 +156,9 @@ fn scenes_are_clean() {
         let [width, height] = case.size;
         let command = format!("-sz {width} {height}");
         let name = case.name;
-        assert!(case.scene.contains(&command) && case.scene.contains(&format!("> {name}.png")), "{name}");
+        assert!(
+            case.scene.contains(&command) && case.scene.contains(&format!("> {name}.png")),
+            "{name}"
+        );
     }
 }

@@ -24,7 +24,9 @@ fn polygons_of_obj(text: &str) -> Vec<Polygon> {
     for line in text.lines() {
         let mut words = line.split(' ');
         match words.next() {
-            Some("v") => vertices.push(<[f64; 3]>::try_from(numbers(words.take(3))).expect("three numbers")),
+            Some("v") => {
+                vertices.push(<[f64; 3]>::try_from(numbers(words.take(3))).expect("three numbers"))
+            }
             Some("usemtl") => material = words.next().expect("a name").to_string(),
             Some("f") => {
                 let corners = words.map(|word| vertices[word.parse::<usize>().expect("a row") - 1]);
@@ -40,7 +42,8 @@ fn polygons_of_obj(text: &str) -> Vec<Polygon> {
 fn polygons_of_scene(scene: &Scene) -> Vec<Polygon> {
     let polygon = |face: &ugscene::Face| {
         let [outline] = scene.face_contours(face).collect::<Vec<_>>()[..] else { panic!("a hole") };
-        let corners = outline.iter().map(|corner| scene.vertices[corner.index()].position.to_array());
+        let corners =
+            outline.iter().map(|corner| scene.vertices[corner.index()].position.to_array());
         let color = &scene.colors[face.color.expect("a colour").index()];
         (corners.collect(), scene.names.get(color.name).to_string())
     };
@@ -85,7 +88,9 @@ fn tables_have_the_velocities_and_colours_of_the_scenes() {
             let cells = table.get(&key).unwrap_or_else(|| panic!("{key} has a row"));
             let velocity = numbers(cells[..3].iter().map(String::as_str));
             assert_eq!(velocity, scene.bodies.velocity(face.body).beta().to_array(), "{key}");
-            if let ugscene::ColorValue::Hsv { tint: Tint::Hue(hue), saturation: 1.0, .. } = color.value {
+            if let ugscene::ColorValue::Hsv { tint: Tint::Hue(hue), saturation: 1.0, .. } =
+                color.value
+            {
                 assert_eq!(cells[4], format!("{hue:?}"), "{key}");
             }
             used.insert(key);
@@ -94,7 +99,9 @@ fn tables_have_the_velocities_and_colours_of_the_scenes() {
     assert_eq!(used.len(), table.len(), "every row is an object");
     // The wavelengths that the README states.
     let nm = |key: &str| table[key][5].parse::<f64>().unwrap();
-    for (key, expected) in [("wide red", 700.0), ("shift rest", 600.0 / 1.1), ("shift coming", 600.0)] {
+    for (key, expected) in
+        [("wide red", 700.0), ("shift rest", 600.0 / 1.1), ("shift coming", 600.0)]
+    {
         assert!((nm(key) - expected).abs() < 1e-6, "{key}: {}", nm(key));
     }
     assert_eq!(table["blackbody b1"][3], "blackbody 3000.0 2.5741664");
@@ -108,7 +115,8 @@ fn tables_have_the_cameras_of_the_scenes() {
     for case in &CASES {
         let scene = scene(case);
         let camera = scene.camera().unwrap();
-        let vectors = [camera.eye, camera.center, camera.up].map(|vector| vector.unwrap().to_array());
+        let vectors =
+            [camera.eye, camera.center, camera.up].map(|vector| vector.unwrap().to_array());
         let size = case.size.map(f64::from);
         let expected = [&size[..], vectors.as_flattened()].concat();
         let (lens, view) = match case.lens {

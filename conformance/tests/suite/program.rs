@@ -19,17 +19,17 @@ fn right_answers_pass() {
     let topics = ugconformance::suite::topics().expect("the files of cases are in order");
     let cases = topics.iter().flat_map(|topic| &topic.cases);
     let expected = |case: &ugconformance::suite::Case| {
-        let numbers: Vec<String> = case.expected.iter().map(|number| format!("{number:?}")).collect();
+        let numbers: Vec<String> =
+            case.expected.iter().map(|number| format!("{number:?}")).collect();
         format!("{} {}\n", case.id, numbers.join(" "))
     };
     let answers: String = cases.map(expected).collect();
     assert_eq!(answers.lines().count(), text(&questions).lines().count());
     let card = run(&["score"], answers.as_bytes());
     assert!(card.status.success(), "{}", text(&card));
-    assert!(
-        text(&card)
-            .starts_with("topic  passed  failed  unanswered  worst error  about\nT01        10       0")
-    );
+    assert!(text(&card).starts_with(
+        "topic  passed  failed  unanswered  worst error  about\nT01        10       0"
+    ));
 }
 
 #[test]
@@ -107,7 +107,10 @@ fn text_from_outside_cannot_command_the_terminal() {
     ] {
         let output = run(args, input.as_bytes());
         let talk = String::from_utf8(output.stderr).expect("UTF-8");
-        assert!(talk.contains(shown) && !talk.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{talk:?}");
+        assert!(
+            talk.contains(shown) && !talk.contains(['\u{1b}', '\u{9b}', '\u{202e}']),
+            "{talk:?}"
+        );
     }
 }
 
@@ -197,9 +200,17 @@ fn pictures_are_compared() {
     assert!(run(&["compare", "-tolerance", "1", &mine, &truth], b"").status.success());
 
     for (args, status, message) in [
-        (&["compare", &jpeg, &truth][..], 1, "a JPEG cannot be scored: its compression changes the pixels"),
+        (
+            &["compare", &jpeg, &truth][..],
+            1,
+            "a JPEG cannot be scored: its compression changes the pixels",
+        ),
         (&["score-image", "cube", &jpeg], 1, "write the picture as PNG\n"),
-        (&["compare", &mine], 2, "compare requires two pictures: `ugconformance compare MINE TRUTH`"),
+        (
+            &["compare", &mine],
+            2,
+            "compare requires two pictures: `ugconformance compare MINE TRUTH`",
+        ),
         (&["compare", "-share", "2", &mine, &truth], 2, "must be from 0 to 1"),
     ] {
         let output = run(args, b"");
@@ -212,7 +223,9 @@ fn pictures_are_compared() {
 #[test]
 fn scenes_are_written_for_other_renderers() {
     assert!(text(&run(&["mesh", "edge"], b"")).contains("\nusemtl white\nf 1 2 3 4\n"));
-    assert!(text(&run(&["table", "objects"], b"")).contains("\nedge,white,0.9,0.0,0.0,grey 1.0,,\n"));
+    assert!(
+        text(&run(&["table", "objects"], b"")).contains("\nedge,white,0.9,0.0,0.0,grey 1.0,,\n")
+    );
     assert!(
         text(&run(&["table", "cameras"], b""))
             .contains("\nedge,600,450,0.0,0.0,0.0,-2.4,0.0,1.0,0.0,0.0,1.0,pinhole,44.0\n")
@@ -226,9 +239,10 @@ fn mistakes_in_pictures_are_recognized() {
     let geometry = ugscene::ShownEffects { contraction: false, ..Default::default() };
     let whole = uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
     let galilean = uglorentz::Config { geometry, ..Default::default() };
-    for (name, size, config, expected) in
-        [("edge", [600, 450], whole, "looks like M13: "), ("sphere", [600, 600], galilean, "looks like M9: ")]
-    {
+    for (name, size, config, expected) in [
+        ("edge", [600, 450], whole, "looks like M13: "),
+        ("sphere", [600, 600], galilean, "looks like M9: "),
+    ] {
         let path = format!("{}/scenes/{name}.ug", env!("CARGO_MANIFEST_DIR"));
         let source = ugparse::Source::new(name, fs::read(path).expect("a scene"));
         let scene = ugparse::parse(&source, &ugparse::Options::default()).expect("a scene").scene;

@@ -136,8 +136,12 @@ impl BoxRay {
                     2 * axis_y + is_backward[1],
                     2 * axis_z + is_backward[2],
                 ],
-                entry_offsets: array::from_fn(|axis| -(position[axis] + ahead[axis]) * reciprocals[axis]),
-                exit_offsets: array::from_fn(|axis| -(position[axis] - ahead[axis]) * reciprocals[axis]),
+                entry_offsets: array::from_fn(|axis| {
+                    -(position[axis] + ahead[axis]) * reciprocals[axis]
+                }),
+                exit_offsets: array::from_fn(|axis| {
+                    -(position[axis] - ahead[axis]) * reciprocals[axis]
+                }),
                 reciprocals,
             },
             depths,
@@ -152,7 +156,11 @@ impl BoxRay {
         let start = (shear.z(range.start) - z) * sign - padding;
         // NaN and infinities, which can be due to overflow, do not limit.
         let start = if start > 0.0 && start <= f64::MAX { start as f32 } else { 0.0 };
-        let end = if range.end < f64::INFINITY { self.depths.end(shear, range.end) } else { f32::INFINITY };
+        let end = if range.end < f64::INFINITY {
+            self.depths.end(shear, range.end)
+        } else {
+            f32::INFINITY
+        };
         start..end
     }
 

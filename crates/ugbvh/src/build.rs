@@ -41,9 +41,9 @@ impl Bounds {
 
     #[inline(always)]
     fn union(self, other: &Self) -> Self {
-        Self(std::array::from_fn(
-            |lane| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] },
-        ))
+        Self(std::array::from_fn(|lane| {
+            if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] }
+        }))
     }
 
     #[inline(always)]
@@ -102,7 +102,8 @@ struct Leaf {
 pub fn build(positions: &[DVec3], triangles: &[[u32; 3]]) -> Bvh {
     let triangles = &triangles[..triangles.len().min(MAX_TRIANGLES)];
     let positions: Vec<[f64; 3]> = positions.iter().map(|position| position.to_array()).collect();
-    let margin = |positions: &Positions, row: usize| is_regular(positions, triangles[row]).then_some(0.0);
+    let margin =
+        |positions: &Positions, row: usize| is_regular(positions, triangles[row]).then_some(0.0);
     let Some((low, high)) = bounds(&positions, triangles, margin) else { return Bvh::empty() };
     with_margins(positions, triangles, [low, high], margin)
 }
@@ -132,7 +133,8 @@ fn with_margins(
     let corner = |position: &[f64; 3]| frame.to_box(*position).map(|x| x as f32);
     let corners = positions.par_iter().with_min_len(RANGE).map(corner).collect();
     let mesh = Mesh { triangles, corners };
-    let mut items = mesh.items(|triangle| Some((margin(&positions, triangle)? * frame.scale) as f32));
+    let mut items =
+        mesh.items(|triangle| Some((margin(&positions, triangle)? * frame.scale) as f32));
     let mut tree = Subtree::default();
     build_node(&mut items, 0, 0, &mut tree);
     let Subtree { nodes, leaves } = tree;
@@ -183,7 +185,9 @@ fn bounds(
 
 /// Whether rays can hit a triangle: see [`Bvh::new`].
 pub fn is_regular(positions: &[[f64; 3]], triangle: [u32; 3]) -> bool {
-    let [Some(a), Some(b), Some(c)] = triangle.map(|row| positions.get(row as usize)) else { return false };
+    let [Some(a), Some(b), Some(c)] = triangle.map(|row| positions.get(row as usize)) else {
+        return false;
+    };
     // NaN fails the comparison.
     if ![a, b, c].iter().all(|corner| corner.iter().all(|x| x.abs() <= MAX_COORDINATE)) {
         return false;
@@ -191,7 +195,8 @@ pub fn is_regular(positions: &[[f64; 3]], triangle: [u32; 3]) -> bool {
     let edge = |to: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|axis| to[axis] - a[axis]) };
     let (b, c) = (edge(b), edge(c));
     let is_regular = |b: [f64; 3], c: [f64; 3]| {
-        let normal = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        let normal =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         (normal[0].abs() + normal[1].abs() + normal[2].abs(), normal != [0.0; 3])
     };
     let (size, is) = is_regular(b, c);
@@ -224,7 +229,9 @@ impl Mesh<'_> {
         self.triangles[triangle]
             .map(|row| self.corners[row as usize])
             .into_iter()
-            .fold(Bounds::EMPTY, |bounds, [x, y, z]| bounds.union(&Bounds([x, y, z, 0.0, -x, -y, -z, 0.0])))
+            .fold(Bounds::EMPTY, |bounds, [x, y, z]| {
+                bounds.union(&Bounds([x, y, z, 0.0, -x, -y, -z, 0.0]))
+            })
     }
 
     fn block(&self, leaf: Leaf, items: &[Item]) -> Block {
@@ -309,7 +316,8 @@ fn bounds_of(items: &[Item]) -> Bounds {
 fn split(items: &mut [Item], depth: u32) -> Vec<Part> {
     let mut parts = vec![Part { first: 0, n: items.len(), bounds: bounds_of(items) }];
     while parts.len() < WIDTH {
-        let key = |part: &Part| if depth < MAX_SAH_DEPTH { part.bounds.area() } else { part.n as f32 };
+        let key =
+            |part: &Part| if depth < MAX_SAH_DEPTH { part.bounds.area() } else { part.n as f32 };
         let greatest = (0..parts.len())
             .filter(|&idx| parts[idx].n > WIDTH)
             .reduce(|best, idx| if key(&parts[idx]) > key(&parts[best]) { idx } else { best });
@@ -348,7 +356,8 @@ fn split_by_area(items: &mut [Item]) -> Option<(usize, [Bounds; 2])> {
     if cost == f32::INFINITY {
         return None;
     }
-    let union = |bins: &[Bin]| bins.iter().fold(Bounds::EMPTY, |bounds, bin| bounds.union(&bin.bounds));
+    let union =
+        |bins: &[Bin]| bins.iter().fold(Bounds::EMPTY, |bounds, bin| bounds.union(&bin.bounds));
     let (first, others) = bins.bins[axis].split_at(bin);
     Some((partition(items, |item| bins.find(item, axis) < bin), [union(first), union(others)]))
 }

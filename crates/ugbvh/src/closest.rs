@@ -13,8 +13,8 @@ use crate::{Bvh, Hit, Ray, Triangle};
 /// Replaces a hit by a nearer one. Returns true if it did.
 #[inline(always)]
 pub fn keep_nearest(hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -> bool {
-    let is_nearer =
-        hit.is_none_or(|hit| crossing.t < hit.t || (crossing.t == hit.t && triangle < hit.triangle));
+    let is_nearer = hit
+        .is_none_or(|hit| crossing.t < hit.t || (crossing.t == hit.t && triangle < hit.triangle));
     if is_nearer {
         *hit = Some(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v });
     }
@@ -23,7 +23,12 @@ pub fn keep_nearest(hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -
 
 /// [`keep_nearest`] for a hit that may not be in a range.
 #[inline(always)]
-fn keep_nearest_in(range: &Range<f64>, hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -> bool {
+fn keep_nearest_in(
+    range: &Range<f64>,
+    hit: &mut Option<Hit>,
+    crossing: &Crossing,
+    triangle: u32,
+) -> bool {
     range.start < crossing.t && crossing.t < range.end && keep_nearest(hit, crossing, triangle)
 }
 
@@ -59,7 +64,8 @@ pub fn closest(bvh: &Bvh, ray: &Prepared) -> Option<Hit> {
     let mut walk = Walk::new(ray.depths.end);
     let mut hit = None;
     loop {
-        match dispatch!(bvh.level, simd => walk_on::<_, false>(simd, bvh, ray, &mut walk, &mut hit)) {
+        match dispatch!(bvh.level, simd => walk_on::<_, false>(simd, bvh, ray, &mut walk, &mut hit))
+        {
             Stop::Empty if !walk.stack.refill() => return hit,
             Stop::Empty => {}
             stop => walk.resume(bvh, ray, stop, &mut hit, false),
@@ -67,7 +73,11 @@ pub fn closest(bvh: &Bvh, ray: &Prepared) -> Option<Hit> {
     }
 }
 
-pub fn visit(bvh: &Bvh, ray: &Prepared, visit: &mut impl FnMut(Hit) -> ControlFlow<()>) -> ControlFlow<()> {
+pub fn visit(
+    bvh: &Bvh,
+    ray: &Prepared,
+    visit: &mut impl FnMut(Hit) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let mut walk = Walk::new(ray.depths.end);
     loop {
         let mut hit = None;

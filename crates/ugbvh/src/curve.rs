@@ -81,7 +81,12 @@ const TANGENT_ERROR: f64 = power_of_two(-44);
 
 /// Calls `visit` with hits in a range and their triangles, roughly the first ones first. `visit`
 /// returns the end of the range from then on.
-pub fn visit<C: Curve>(bvh: &Bvh, curve: &C, range: Range<f64>, visit: impl FnMut(Crossing, u32) -> f64) {
+pub fn visit<C: Curve>(
+    bvh: &Bvh,
+    curve: &C,
+    range: Range<f64>,
+    visit: impl FnMut(Crossing, u32) -> f64,
+) {
     let is_finite = range.start.is_finite() && range.end.is_finite();
     if bvh.nodes.is_empty() || !is_finite || range.start >= range.end {
         return;
@@ -209,7 +214,11 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     }
 
     /// The chord as a ray; `Ok(None)` if it misses the mesh.
-    fn chord(&self, [start, end]: [DVec3; 2], deviation: f64) -> Result<Option<Chord>, NoDirection> {
+    fn chord(
+        &self,
+        [start, end]: [DVec3; 2],
+        deviation: f64,
+    ) -> Result<Option<Chord>, NoDirection> {
         let direction = (end - start).to_array();
         let shear = Shear::new(&self.bvh.frame, start.to_array(), direction).ok_or(NoDirection)?;
         // More than twice, for its rounding.
@@ -217,8 +226,9 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let Some(ray) = BoxRay::with_margin(&shear, direction, margin) else { return Ok(None) };
         let depths = ray.limits(&shear, &(0.0..1.0));
         let at = [ray.depth(shear.z(0.0)), ray.depth(shear.z(1.0))];
-        let is_beside =
-            depths.start > depths.end || at[0] > 2.0 + 2.0 * margin + 1e-3 || at[1] < -2.0 * margin - 1e-3;
+        let is_beside = depths.start > depths.end
+            || at[0] > 2.0 + 2.0 * margin + 1e-3
+            || at[1] < -2.0 * margin - 1e-3;
         Ok((!is_beside).then_some(Chord { ray, depths: [depths.start, depths.end], at, margin }))
     }
 
@@ -231,7 +241,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let parameter = from + 0.5 * (to - from);
         let middle = (parameter, self.curve.at(parameter).0);
         let halves = if from < parameter && parameter < to && self.sections.len() < MOST_SECTIONS {
-            [[ends[0], middle], [middle, ends[1]]].map(|ends| self.section(ends, halvings + 1, step))
+            [[ends[0], middle], [middle, ends[1]]]
+                .map(|ends| self.section(ends, halvings + 1, step))
         } else {
             [None; 2]
         };
@@ -245,7 +256,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     fn run<S: Simd>(&mut self, simd: S) {
         let Range { start, end } = self.range;
         let whole = [start, end].map(|parameter| (parameter, self.curve.at(parameter).0));
-        let deviation = self.curve.bend(whole) * (end - start) * (end - start) * 0.125 * self.bvh.frame.scale;
+        let deviation =
+            self.curve.bend(whole) * (end - start) * (end - start) * 0.125 * self.bvh.frame.scale;
         // NaN becomes 0.
         let n = ((deviation / FIRST_DEVIATION).sqrt().ceil().min(MOST_FIRST) as u32).max(1);
         let mut from = whole[0];
@@ -260,7 +272,13 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
                 return;
             }
             if let Some(section) = self.section([from, to], 0, f64::NAN) {
-                self.stack.push(Entry { key: from.0, child: 0, parent: None, section, extent: 2.0 });
+                self.stack.push(Entry {
+                    key: from.0,
+                    child: 0,
+                    parent: None,
+                    section,
+                    extent: 2.0,
+                });
                 self.walk(simd);
             }
             from = to;
@@ -277,7 +295,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
             let is_block = entry.child & IS_BLOCK != 0;
             let slack = if is_block { BLOCK_SLACK } else { NODE_SLACK };
             let is_last = section.halvings == MOST_HALVINGS || self.sections.len() >= MOST_SECTIONS;
-            let is_fine = section.deviation <= (slack * entry.extent).max(LEAST_DEVIATION) || is_last;
+            let is_fine =
+                section.deviation <= (slack * entry.extent).max(LEAST_DEVIATION) || is_last;
             match &section.chord {
                 Some(chord) if is_fine && is_block => {
                     let (line, margin) = (chord.ray.line, chord.margin as f32);
@@ -297,7 +316,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
             let near = match (&section.chord, entry.parent) {
                 (Some(chord), Some((node, child))) => {
                     let node = &self.bvh.nodes[node as usize];
-                    let Some(near) = node.intersect_child(&chord.ray.slabs, child as usize, chord.depths)
+                    let Some(near) =
+                        node.intersect_child(&chord.ray.slabs, child as usize, chord.depths)
                     else {
                         continue;
                     };
@@ -316,8 +336,12 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let node = &self.bvh.nodes[entry.child as usize];
         let section = &self.sections[entry.section as usize];
         let Some(chord) = &section.chord else { return };
-        let (near, mut mask) =
-            node.intersect(simd, &SimdRay::new(simd, &chord.ray.slabs), chord.depths[0], chord.depths[1]);
+        let (near, mut mask) = node.intersect(
+            simd,
+            &SimdRay::new(simd, &chord.ray.slabs),
+            chord.depths[0],
+            chord.depths[1],
+        );
         let first = self.stack.len();
         while mask != 0 {
             let idx = lowest(mask);
@@ -327,7 +351,13 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
                 continue;
             }
             let parent = Some((entry.child, idx as u32));
-            let child = Entry { key, child: node.children()[idx], parent, extent: node.extent(idx), ..entry };
+            let child = Entry {
+                key,
+                child: node.children()[idx],
+                parent,
+                extent: node.extent(idx),
+                ..entry
+            };
             self.stack.push(child);
             // The nearest is popped first.
             let mut at = self.stack.len() - 1;
@@ -359,7 +389,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let rounding = TANGENT_ERROR * self.bvh.frame.unit * length;
         let plane = Plane { point: a, normal, bend: section.bend * length, rounding };
         let ends = section.ends.map(|(parameter, point)| (parameter, plane.height(point)));
-        if plane.is_crossed_beside(section, [ends[0].1, ends[1].1], [a, b, c], self.bvh.frame.unit) {
+        if plane.is_crossed_beside(section, [ends[0].1, ends[1].1], [a, b, c], self.bvh.frame.unit)
+        {
             return;
         }
         self.halvings_left = MOST_HALVINGS_AT_A_TRIANGLE;
@@ -500,7 +531,13 @@ impl Plane {
     /// Where the curve is in the plane, its chord is no farther than the deviation d from it, so
     /// along the chord at most d/sin(angle to the plane) from where the chord crosses the plane.
     /// `heights`: of the ends. `unit`: size of the mesh.
-    fn is_crossed_beside(&self, section: &Arc, heights: [f64; 2], corners: [DVec3; 3], unit: f64) -> bool {
+    fn is_crossed_beside(
+        &self,
+        section: &Arc,
+        heights: [f64; 2],
+        corners: [DVec3; 3],
+        unit: f64,
+    ) -> bool {
         /// More than the errors of tangents and of rounding, in sizes of the mesh.
         const ROUNDING: f64 = power_of_two(-40);
         let [(from, start), (to, end)] = section.ends;

@@ -71,7 +71,8 @@ impl DisplacedBvh {
                     let idx = lowest(mask);
                     mask &= mask - 1;
                     let entry = Entry::new(near[idx], node.children()[idx]);
-                    let at = farthest_first[..n].iter().position(|other| *other < entry).unwrap_or(n);
+                    let at =
+                        farthest_first[..n].iter().position(|other| *other < entry).unwrap_or(n);
                     farthest_first.copy_within(at..n, at + 1);
                     farthest_first[at] = entry;
                     n += 1;
@@ -114,8 +115,15 @@ impl Candidate<'_> {
         mut visit: impl FnMut(Hit) -> f64,
     ) {
         let step = curve::tangent_step(self.bvh, bend);
-        curve::visit_triangle(self.bvh, curve, &self.triangle, range, step, |crossing, triangle| {
-            visit(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v })
-        });
+        curve::visit_triangle(
+            self.bvh,
+            curve,
+            &self.triangle,
+            range,
+            step,
+            |crossing, triangle| {
+                visit(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v })
+            },
+        );
     }
 }

@@ -176,7 +176,12 @@ impl Bvh {
     /// search.
     ///
     /// The last digits of hits depend on the range, but not on the ends that `visit` returns.
-    pub fn visit_on_curve(&self, curve: &impl Curve, range: Range<f64>, mut visit: impl FnMut(Hit) -> f64) {
+    pub fn visit_on_curve(
+        &self,
+        curve: &impl Curve,
+        range: Range<f64>,
+        mut visit: impl FnMut(Hit) -> f64,
+    ) {
         curve::visit(self, curve, range, |crossing, triangle| {
             visit(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v })
         });

@@ -76,7 +76,13 @@ impl Node {
 
     /// Where the ray enters each box, and a mask of those it hits at τ in `start`…`end`.
     #[inline(always)]
-    pub fn intersect<S: Simd>(&self, simd: S, ray: &SimdRay<S>, start: f32, end: f32) -> ([f32; WIDTH], u32) {
+    pub fn intersect<S: Simd>(
+        &self,
+        simd: S,
+        ray: &SimdRay<S>,
+        start: f32,
+        end: f32,
+    ) -> ([f32; WIDTH], u32) {
         // No operand is NaN: origins and reciprocals are finite, and reciprocals are not 0.
         let [near_x, far_x] = self.crossings(simd, ray, 0);
         let [near_y, far_y] = self.crossings(simd, ray, 1);
@@ -88,10 +94,16 @@ impl Node {
 
     /// Where the ray enters the box of a child, if it hits it at τ in `start`…`end`; as of
     /// [`Node::intersect`], up to rounding.
-    pub fn intersect_child(&self, ray: &Slabs, child: usize, [start, end]: [f32; 2]) -> Option<f32> {
+    pub fn intersect_child(
+        &self,
+        ray: &Slabs,
+        child: usize,
+        [start, end]: [f32; 2],
+    ) -> Option<f32> {
         let (mut near, mut far) = (start, end);
         for axis in 0..3 {
-            let planes = [ray.entries[axis], ray.entries[axis] ^ 1].map(|idx| self.plane(idx, child));
+            let planes =
+                [ray.entries[axis], ray.entries[axis] ^ 1].map(|idx| self.plane(idx, child));
             near = near.max(planes[0] * ray.reciprocals[axis] + ray.entry_offsets[axis]);
             far = far.min(planes[1] * ray.reciprocals[axis] + ray.exit_offsets[axis]);
         }
@@ -173,8 +185,8 @@ impl Block {
         let tolerance = self.tolerance(ray.padding);
         let low = weights[0].min(weights[1]).min(weights[2]);
         let high = weights[0].max(weights[1]).max(weights[2]);
-        let is_hit =
-            low.simd_ge(f32x8::splat(simd, -tolerance)) | high.simd_le(f32x8::splat(simd, tolerance));
+        let is_hit = low.simd_ge(f32x8::splat(simd, -tolerance))
+            | high.simd_le(f32x8::splat(simd, tolerance));
         is_hit.to_bitmask() as u32 & ((1 << self.n) - 1)
     }
 
@@ -210,7 +222,10 @@ impl Block {
         let x = f32x8::from_slice(simd, &corner[ray.axes[0]]) - ray.position[0];
         let y = f32x8::from_slice(simd, &corner[ray.axes[1]]) - ray.position[1];
         let z = f32x8::from_slice(simd, &corner[ray.axes[2]]) - ray.position[2];
-        [z.mul_sub(f32x8::splat(simd, ray.slopes[0]), x), z.mul_sub(f32x8::splat(simd, ray.slopes[1]), y)]
+        [
+            z.mul_sub(f32x8::splat(simd, ray.slopes[0]), x),
+            z.mul_sub(f32x8::splat(simd, ray.slopes[1]), y),
+        ]
     }
 
     #[inline(always)]

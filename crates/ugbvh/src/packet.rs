@@ -33,12 +33,19 @@ const GROUPS: usize = LEN / WIDTH;
 /// Greatest padding of packets; beyond it, rays are traced each by itself.
 const MAX_PADDING: f64 = power_of_two(-10);
 
-pub fn closest(bvh: &Bvh, origin: DVec3, directions: &[DVec3], range: &Range<f64>, hits: &mut [Option<Hit>]) {
+pub fn closest(
+    bvh: &Bvh,
+    origin: DVec3,
+    directions: &[DVec3],
+    range: &Range<f64>,
+    hits: &mut [Option<Hit>],
+) {
     for (directions, hits) in directions.chunks(LEN).zip(hits.chunks_mut(LEN)) {
         let n = directions.len().min(hits.len());
         let (directions, hits) = (&directions[..n], &mut hits[..n]);
         hits.fill(None);
-        let is_done = dispatch!(bvh.level, simd => closest_on(simd, bvh, origin, directions, range, hits));
+        let is_done =
+            dispatch!(bvh.level, simd => closest_on(simd, bvh, origin, directions, range, hits));
         if !is_done {
             for (&direction, hit) in directions.iter().zip(hits) {
                 *hit = bvh.closest(&Ray { origin, direction }, range.clone());
@@ -74,7 +81,8 @@ fn closest_on<S: Simd>(
         return false;
     }
     let origin = origin.to_array();
-    let shear = directions.first().and_then(|first| Shear::new(&bvh.frame, origin, first.to_array()));
+    let shear =
+        directions.first().and_then(|first| Shear::new(&bvh.frame, origin, first.to_array()));
     let Some(shear) = shear else { return false };
     let depths = Depths::new(&shear);
     if depths.padding > MAX_PADDING {

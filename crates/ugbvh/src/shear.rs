@@ -125,7 +125,8 @@ impl Shear {
         let [a, b, c] = corners.map(|corner| self.project(corner));
         let weights = [cross(b, c), cross(c, a), cross(a, b)];
         let [p, q, r] = weights;
-        let [is_low, is_high] = [(p < 0.0) | (q < 0.0) | (r < 0.0), (p > 0.0) | (q > 0.0) | (r > 0.0)];
+        let [is_low, is_high] =
+            [(p < 0.0) | (q < 0.0) | (r < 0.0), (p > 0.0) | (q > 0.0) | (r > 0.0)];
         // Rounding is monotonic: a computed product is less than another only if it is in truth.
         // So a sign is right unless it is 0.
         if is_low & is_high {
@@ -236,7 +237,8 @@ fn side(from: Corner, to: Corner) -> Option<Side> {
         0.0 => rest,
         weight => weight,
     };
-    let decides = [weight, from[1] - to[1], to[0] - from[0]].into_iter().find(|&number| number != 0.0)?;
+    let decides =
+        [weight, from[1] - to[1], to[0] - from[0]].into_iter().find(|&number| number != 0.0)?;
     Some(Side { weight, is_left: decides > 0.0 })
 }
 

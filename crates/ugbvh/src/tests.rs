@@ -61,9 +61,14 @@ fn sphere(n_bands: u32, n_sectors: u32) -> Mesh {
     let mut triangles = Vec::new();
     for band in 0..n_bands {
         for sector in 0..n_sectors {
-            let [a, b, c, d] =
-                [row(band, sector), row(band, sector + 1), row(band + 1, sector), row(band + 1, sector + 1)];
-            triangles.extend([[a, c, b], [b, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c));
+            let [a, b, c, d] = [
+                row(band, sector),
+                row(band, sector + 1),
+                row(band + 1, sector),
+                row(band + 1, sector + 1),
+            ];
+            triangles
+                .extend([[a, c, b], [b, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c));
         }
     }
     Mesh { positions, triangles }
@@ -78,20 +83,25 @@ fn soup(random: &mut Random, n: usize) -> Mesh {
             DVec3::from_array([(); 3].map(|()| (random.between(-8.0, 8.0).round() / 8.0) * scale))
         })
         .collect::<Vec<_>>();
-    let triangles = (0..n).map(|_| [(); 3].map(|()| random.below(positions.len()) as u32)).collect();
+    let triangles =
+        (0..n).map(|_| [(); 3].map(|()| random.below(positions.len()) as u32)).collect();
     Mesh { positions, triangles }
 }
 
 /// All hits in a range, by testing every triangle.
 fn all_hits(mesh: &Mesh, ray: &Ray, range: &Range<f64>) -> Vec<Hit> {
-    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|position| position.to_array()).collect();
-    let regular: Vec<usize> =
-        (0..mesh.triangles.len()).filter(|&idx| is_regular(&positions, mesh.triangles[idx])).collect();
-    let corners = || regular.iter().flat_map(|&idx| mesh.triangles[idx]).map(|row| positions[row as usize]);
-    let low =
-        corners().fold([f64::INFINITY; 3], |low, at| std::array::from_fn(|axis| low[axis].min(at[axis])));
-    let high = corners()
-        .fold([f64::NEG_INFINITY; 3], |high, at| std::array::from_fn(|axis| high[axis].max(at[axis])));
+    let positions: Vec<[f64; 3]> =
+        mesh.positions.iter().map(|position| position.to_array()).collect();
+    let regular: Vec<usize> = (0..mesh.triangles.len())
+        .filter(|&idx| is_regular(&positions, mesh.triangles[idx]))
+        .collect();
+    let corners =
+        || regular.iter().flat_map(|&idx| mesh.triangles[idx]).map(|row| positions[row as usize]);
+    let low = corners()
+        .fold([f64::INFINITY; 3], |low, at| std::array::from_fn(|axis| low[axis].min(at[axis])));
+    let high = corners().fold([f64::NEG_INFINITY; 3], |high, at| {
+        std::array::from_fn(|axis| high[axis].max(at[axis]))
+    });
     if regular.is_empty() {
         return Vec::new();
     }
@@ -102,7 +112,8 @@ fn all_hits(mesh: &Mesh, ray: &Ray, range: &Range<f64>) -> Vec<Hit> {
     regular
         .iter()
         .filter_map(|&idx| {
-            let crossing = shear.intersect(mesh.triangles[idx].map(|row| &positions[row as usize]))?;
+            let crossing =
+                shear.intersect(mesh.triangles[idx].map(|row| &positions[row as usize]))?;
             let hit = Hit { t: crossing.t, triangle: idx as u32, u: crossing.u, v: crossing.v };
             (range.start < hit.t && hit.t < range.end).then_some(hit)
         })
@@ -135,7 +146,10 @@ fn check(bvh: &Bvh, mesh: &Mesh, ray: &Ray, range: &Range<f64>) -> usize {
 /// Rays of all kinds at a mesh: through points of triangles, edges and corners, along axes, in
 /// planes of faces, from inside, from far away, and past it.
 fn rays(random: &mut Random, mesh: &Mesh, n: usize) -> Vec<Ray> {
-    let size = mesh.positions.iter().fold(0.0_f64, |size, position| size.max(position.abs().max_element()));
+    let size = mesh
+        .positions
+        .iter()
+        .fold(0.0_f64, |size, position| size.max(position.abs().max_element()));
     let mut rays = Vec::new();
     while rays.len() < n {
         let [a, b, c] = random.pick(&mesh.triangles).map(|row| mesh.positions[row as usize]);
@@ -200,8 +214,10 @@ fn details_of_every_size_are_hit() {
         let size = power_of_two(3 * exponent);
         let first = mesh.positions.len() as u32;
         let height = size;
-        mesh.positions
-            .extend([(-1.0, -1.0), (2.0, -1.0), (-1.0, 2.0)].map(|(x, y)| dvec3(x * size, y * size, height)));
+        mesh.positions.extend(
+            [(-1.0, -1.0), (2.0, -1.0), (-1.0, 2.0)]
+                .map(|(x, y)| dvec3(x * size, y * size, height)),
+        );
         mesh.triangles.push([first, first + 1, first + 2]);
     }
     let bvh = mesh.build();
@@ -244,15 +260,19 @@ fn nothing_slips_through_a_closed_mesh() {
 
 #[test]
 fn a_ray_through_corners_and_edges_of_a_cube_crosses_it_twice() {
-    let positions: Vec<DVec3> =
-        (0..8).map(|idx| dvec3(f64::from(idx & 1), f64::from(idx >> 1 & 1), f64::from(idx >> 2))).collect();
-    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let positions: Vec<DVec3> = (0..8)
+        .map(|idx| dvec3(f64::from(idx & 1), f64::from(idx >> 1 & 1), f64::from(idx >> 2)))
+        .collect();
+    let quads =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let mesh = Mesh { positions, triangles };
     let bvh = mesh.build();
     let grid = [-0.5, 0.0, 0.25, 0.5, 1.0, 1.5];
     let mut n_even = 0;
-    for (x, y, z) in grid.iter().flat_map(|&x| grid.iter().flat_map(move |&y| grid.map(|z| (x, y, z)))) {
+    for (x, y, z) in
+        grid.iter().flat_map(|&x| grid.iter().flat_map(move |&y| grid.map(|z| (x, y, z))))
+    {
         let origin = dvec3(-3.0, 0.5, 0.25);
         for direction in [dvec3(x, y, z) - origin, DVec3::X, DVec3::NEG_Z, dvec3(1.0, 1.0, 0.0)] {
             let ray = Ray { origin: dvec3(x, y, z) - direction * 4.0, direction };
@@ -286,12 +306,21 @@ fn invalid_rays_and_triangles_hit_nothing() {
     }
     assert_eq!(bvh.closest(&Ray { origin: dvec3(0.0, 0.0, -1e300), ..ray }, ALL), None);
 
-    let corners =
-        [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X * 2.0, dvec3(nan, 0.0, 0.0), dvec3(1e305, 0.0, 0.0)];
+    let corners = [
+        DVec3::ZERO,
+        DVec3::X,
+        DVec3::Y,
+        DVec3::X * 2.0,
+        dvec3(nan, 0.0, 0.0),
+        dvec3(1e305, 0.0, 0.0),
+    ];
     let degenerate = [[0, 0, 1], [0, 1, 1], [2, 2, 2], [0, 1, 3], [0, 1, 4], [0, 2, 5], [0, 1, 99]];
     let bvh = Bvh::new(&corners, &degenerate);
     assert_eq!(bvh.bounds(), None);
-    assert_eq!(bvh.closest(&Ray { origin: dvec3(0.2, 0.2, 1.0), direction: DVec3::NEG_Z }, ALL), None);
+    assert_eq!(
+        bvh.closest(&Ray { origin: dvec3(0.2, 0.2, 1.0), direction: DVec3::NEG_Z }, ALL),
+        None
+    );
     let mut triangles = degenerate.to_vec();
     triangles.push([0, 1, 2]);
     let bvh = Bvh::new(&corners, &triangles);
@@ -316,7 +345,8 @@ fn among_coincident_triangles_the_first_is_hit() {
 #[test]
 fn work_grows_with_the_logarithm_of_the_number_of_triangles() {
     let surface = |node: &Node, child| {
-        let side = |axis: usize| f64::from(node.plane(2 * axis + 1, child) - node.plane(2 * axis, child));
+        let side =
+            |axis: usize| f64::from(node.plane(2 * axis + 1, child) - node.plane(2 * axis, child));
         let [x, y, z] = [0, 1, 2].map(side);
         x * y + y * z + z * x
     };
@@ -325,12 +355,14 @@ fn work_grows_with_the_logarithm_of_the_number_of_triangles() {
         let mesh = sphere(n_bands, 2 * n_bands);
         let bvh = mesh.build();
         let n_met = |is_block: bool| {
-            let children = bvh.nodes.iter().flat_map(|node| (0..WIDTH).map(move |child| (node, child)));
+            let children =
+                bvh.nodes.iter().flat_map(|node| (0..WIDTH).map(move |child| (node, child)));
             let is_of_kind = |&(node, child): &(&Node, usize)| {
                 let exists = node.plane(0, child).is_finite();
                 exists && (node.children()[child] & IS_BLOCK != 0) == is_block
             };
-            let sum: f64 = children.filter(is_of_kind).map(|(node, child)| surface(node, child)).sum();
+            let sum: f64 =
+                children.filter(is_of_kind).map(|(node, child)| surface(node, child)).sum();
             sum / 12.0
         };
         let [nodes, blocks] = [n_met(false), n_met(true)];

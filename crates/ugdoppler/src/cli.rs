@@ -7,7 +7,9 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::Velocity;
-use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Progress, ToolArgs, Words, remedies};
+use ugpipe::{
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Progress, ToolArgs, Words, remedies,
+};
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
 use ugskybox::SceneSky;
@@ -97,8 +99,19 @@ const EXAMPLES: &str = "Examples:
   uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
 
 impl ToolArgs for Args {
-    const ESSENTIAL: &'static [&'static str] =
-        &["-sp", "-look", "-br", "-gw", "-ir", "-hd", "-li", "-vr", "--no-doppler", "--no-flux", "-fo"];
+    const ESSENTIAL: &'static [&'static str] = &[
+        "-sp",
+        "-look",
+        "-br",
+        "-gw",
+        "-ir",
+        "-hd",
+        "-li",
+        "-vr",
+        "--no-doppler",
+        "--no-flux",
+        "-fo",
+    ];
 
     const LOOKS: Looks = Looks {
         default: Look::Report,
@@ -121,7 +134,8 @@ impl Args {
             return Err(Failure::usage("a colour tolerance (-ct) is between 0 and 100"));
         }
         self.refuse_contradictions()?;
-        let vector = |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);
+        let vector =
+            |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);
         let beta = vector(&self.vel).unwrap_or_default();
         let ShiftArgs { sp, br, no_doppler, no_flux, infrared_rule } = self.shift;
         Ok(Config {
@@ -152,7 +166,9 @@ impl Args {
             ));
         }
         if self.ir && self.hd {
-            return Err(Failure::usage("-ir scales intensities to 1 and -hd keeps them: give one of them"));
+            return Err(Failure::usage(
+                "-ir scales intensities to 1 and -hd keeps them: give one of them",
+            ));
         }
         Ok(())
     }
@@ -172,7 +188,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let steps = context.steps();
     steps.step("reading", 0);
-    let parsed = ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
+    let parsed =
+        ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
     let applied = apply_with(parsed.scene, &config, &steps);
     let (mut scene, notes) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
@@ -205,11 +222,15 @@ impl Words for Note {
             Self::Kept(_) => format!("{self}; -ir scales it to 1.0"),
             Self::TakenAsSeen => remedies::MOVE_FIRST.replacen("{}", &self.to_string(), 1),
             Self::AllMove => format!("{self}, so -vel has no effect"),
-            Self::NoLights => "no lights in the scene, so -li puts none into its colours".to_owned(),
+            Self::NoLights => {
+                "no lights in the scene, so -li puts none into its colours".to_owned()
+            }
             Self::PlainTextures { .. } => format!(
                 "{self}; leave out -vel, -gw, -ir, -hd, -li with moving lights or a sky, and orthographic cameras"
             ),
-            Self::DeferredTextures { .. } => format!("{self}; --no-textures shifts mean colours here"),
+            Self::DeferredTextures { .. } => {
+                format!("{self}; --no-textures shifts mean colours here")
+            }
             Self::Scaled(_) | Self::Clipped(_) | Self::TooSaturated { .. } => self.to_string(),
         }
     }
@@ -221,7 +242,9 @@ impl Words for Error {
             Self::Stage(error) => error.words(),
             // The view centre is that of the scene.
             Self::Camera(CameraError::NoDirection { .. }) => {
-                format!("{self}; move the eye with -ep, or correct the `cam` statement of the scene")
+                format!(
+                    "{self}; move the eye with -ep, or correct the `cam` statement of the scene"
+                )
             }
             Self::Camera(error) => error.words(),
             Self::TooManyLights { .. } => format!("-li computes {self}"),

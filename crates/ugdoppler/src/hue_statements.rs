@@ -88,7 +88,8 @@ impl<'s> HueStatements<'s> {
         let step = self.quantized(doppler);
         let base = self.base(color);
         // On a body at rest D is exactly 1.
-        let is_moving = self.bases[base as usize].is_display && doppler != 1.0 && self.shift.doppler;
+        let is_moving =
+            self.bases[base as usize].is_display && doppler != 1.0 && self.shift.doppler;
         let key = (base, step.to_bits(), is_moving);
         let id = match self.made.get(&key) {
             Some(&id) => id,
@@ -219,7 +220,9 @@ impl<'s> HueStatements<'s> {
                 (self.scene.names.get(color.name).to_string(), color.translucency)
             }
             VertexColor::White => ("white".to_string(), 0.0),
-            VertexColor::Mixed(color) => (format!("mixed{}", self.bases.len() + 1), color.translucency),
+            VertexColor::Mixed(color) => {
+                (format!("mixed{}", self.bases.len() + 1), color.translucency)
+            }
         };
         let is_display = given.mixing(self.scene) == Mixing::Display;
         let color = crate::hue_color(self.scene, self.shift, given);
@@ -270,7 +273,9 @@ impl<'s> HueStatements<'s> {
         is_scaled.resize(self.scene.colors.len(), true);
         self.made.values().for_each(|id| is_scaled[id.index()] = true);
         self.keep_lights(&is_scaled);
-        for (color, _) in self.scene.colors.iter_mut().zip(is_scaled).filter(|(_, is_scaled)| *is_scaled) {
+        for (color, _) in
+            self.scene.colors.iter_mut().zip(is_scaled).filter(|(_, is_scaled)| *is_scaled)
+        {
             color.value = match color.value {
                 ColorValue::Rgb(rgb) if is_linear => ColorValue::Rgb(rgb.map(scaled_channel)),
                 ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| channel / largest)),
@@ -294,7 +299,9 @@ impl<'s> HueStatements<'s> {
     fn keep_lights(&mut self, is_scaled: &[bool]) {
         let mut copies: FxHashMap<ColorId, ColorId> = FxHashMap::default();
         for row in 0..self.scene.lights.len() {
-            let Some(id) = self.scene.lights[row].color.filter(|id| is_scaled[id.index()]) else { continue };
+            let Some(id) = self.scene.lights[row].color.filter(|id| is_scaled[id.index()]) else {
+                continue;
+            };
             let copy = *copies.entry(id).or_insert_with(|| {
                 let color = self.scene.colors[id.index()].clone();
                 let name = format!("{}#light", self.scene.names.get(color.name));

@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use uglight::{Irradiance, Lamps, ScatteringTime, SurfaceElement};
 use ugphysics::InertialFrame;
 use ugpipe::Progress;
-use ugscene::{Light, LightKind, LightMotion, RestFrames, Scene, SeenVertices, VertexId, shading_normal};
+use ugscene::{
+    Light, LightKind, LightMotion, RestFrames, Scene, SeenVertices, VertexId, shading_normal,
+};
 
 /// Normals that differ by less than this in every component count as equal, so that the pieces of a
 /// face that was cut share their vertices. The error of the irradiance is at most as large.
@@ -38,8 +40,9 @@ pub(crate) fn split(
         Flat([i64; 3]),
     }
     // `None` for a face that is not lit.
-    let normal =
-        |face| scene.light_level(face).is_none().then(|| vertices.seen_normal(scene, face, observer));
+    let normal = |face| {
+        scene.light_level(face).is_none().then(|| vertices.seen_normal(scene, face, observer))
+    };
     let normals: Vec<Option<DVec3>> = scene.faces.par_iter().map(normal).collect();
     let users: Vec<_> = scene.drawn().map(|drawn| drawn.contours).collect();
     let originals = ugscene::split_corners(scene, users.into_iter(), |user, _, vertex| {

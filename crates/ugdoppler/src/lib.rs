@@ -49,13 +49,14 @@ mod xyz_statements;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{
-    ColorShift, HueColor, HueShift, Mixing, RestColor, SpectralColor, SpectralShift, VertexColor, hsv,
-    hsv_and_factor,
+    ColorShift, HueColor, HueShift, Mixing, RestColor, SpectralColor, SpectralShift, VertexColor,
+    hsv, hsv_and_factor,
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, ColorMix, ColorStage, DefaultCamera, HueScale, LightMotion,
-    Projection, Provenance, RelativeMotion, RestFrames, Scene, SeenVertices, ShownEffects,
+    Camera, CameraError, CameraOptions, ColorId, ColorMix, ColorStage, DefaultCamera, HueScale,
+    LightMotion, Projection, Provenance, RelativeMotion, RestFrames, Scene, SeenVertices,
+    ShownEffects,
 };
 use ugskybox::SkyLamps;
 
@@ -71,8 +72,11 @@ use vertices::doppler_factors;
 use xyz_statements::SpectralVertices;
 
 /// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+pub const PROVENANCE: Provenance<'static> = Provenance {
+    program: env!("CARGO_PKG_NAME"),
+    version: env!("CARGO_PKG_VERSION"),
+    command: None,
+};
 
 /// The scene with a colour as seen on every vertex that a face or wire uses.
 ///
@@ -113,12 +117,14 @@ pub fn apply_with(
         return Err(Error::VertexAtEye { vertex, name });
     }
     let is_taken_as_seen = !config.velocity.is_zero() && scene.stage.seen_geometry().is_none();
-    let mut bodies = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
-    let all_move =
-        !config.velocity.is_zero() && bodies.all(|body| scene.bodies.stated_velocity(body).is_some());
+    let mut bodies =
+        scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
+    let all_move = !config.velocity.is_zero()
+        && bodies.all(|body| scene.bodies.stated_velocity(body).is_some());
     let textures_note = textures_note(&scene, config);
     let (mut scene, mut notes) = if let Some(Note::DeferredTextures { .. }) = textures_note {
-        scene.stage.colors = ColorStage::Deferred(config.shift.seen_colors(HueScale::Degrees, false));
+        scene.stage.colors =
+            ColorStage::Deferred(config.shift.seen_colors(HueScale::Degrees, false));
         (scene, Vec::new())
     } else {
         color(scene, (config, sky.as_ref()), eye, &frames, progress)?
@@ -153,7 +159,11 @@ fn textures_note(scene: &Scene, config: &Config) -> Option<Note> {
         || config.light && (ugscene::has_moving_lights(scene) || config.sky.is_some())
         || projection == Some(Projection::Orthographic)
         || ShownEffects::of(scene) != ShownEffects::default();
-    Some(if needs_vertices { Note::PlainTextures { color } } else { Note::DeferredTextures { color } })
+    Some(if needs_vertices {
+        Note::PlainTextures { color }
+    } else {
+        Note::DeferredTextures { color }
+    })
 }
 
 /// Writes the eye into the scene's camera if positions are as seen from it, so that programs
@@ -209,9 +219,16 @@ fn color(
     let shares = ugscene::vertex_mixes(&scene, &vertices.0.rest);
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
         let mut shares = shares.into_iter().map(|shares| shares.of_spectra(&scene)).collect();
-        let (light, factors) =
-            light_vertices(&mut scene, (config, sky), (eye, frames), vertices, &mut shares, progress)?;
-        let lit = light.map_or_else(Vec::new, |light| lit_spectra(&scene, shift, &shares, &factors, &light));
+        let (light, factors) = light_vertices(
+            &mut scene,
+            (config, sky),
+            (eye, frames),
+            vertices,
+            &mut shares,
+            progress,
+        )?;
+        let lit = light
+            .map_or_else(Vec::new, |light| lit_spectra(&scene, shift, &shares, &factors, &light));
         let ln_factors = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
         let used = vertices::used(&scene);
         let vertices = SpectralVertices { shares: &shares, ln_factors, used, lit };
@@ -219,8 +236,14 @@ fn color(
     } else {
         let shift = config.shift.of_hues();
         let mut colors = uglight::vertex_colors(&scene, &shares);
-        let (light, factors) =
-            light_vertices(&mut scene, (config, sky), (eye, frames), vertices, &mut colors, progress)?;
+        let (light, factors) = light_vertices(
+            &mut scene,
+            (config, sky),
+            (eye, frames),
+            vertices,
+            &mut colors,
+            progress,
+        )?;
         let used = vertices::used(&scene);
         let lit = light.map(|light| lit_colors(&scene, shift, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
@@ -273,7 +296,8 @@ fn light_vertices<T: Clone>(
         return Err(Error::TooManyLights { n_lights, n_vertices });
     }
     let is_spectral = config.shift.is_spectral();
-    let light = VertexIrradiance::new(scene, (eye, frames), &seen, &normals, (is_spectral, sky), progress);
+    let light =
+        VertexIrradiance::new(scene, (eye, frames), &seen, &normals, (is_spectral, sky), progress);
     progress.check()?;
     Ok((Some(light), factors))
 }
@@ -295,7 +319,8 @@ fn lit_colors(
         let (base, parts) = (hue_color(scene, shift, color), parts.as_ref()?);
         let is_display = is_mixed || base.is_faded() && color.mixing(scene) == Mixing::Display;
         let colors = || (color.at_rest(scene).linear(), base);
-        let display = || shift.display_lit(colors(), doppler, parts, &light.lamps).map(HueColor::of_display);
+        let display =
+            || shift.display_lit(colors(), doppler, parts, &light.lamps).map(HueColor::of_display);
         let display = if is_display { display() } else { None };
         let hue = || shift.seen_lit(base, doppler, parts, &light.lamps);
         Some(LitColor { seen: display.unwrap_or_else(hue), is_display: display.is_some() })
@@ -313,7 +338,8 @@ fn displays_in_mixtures(scene: &Scene, colors: &[VertexColor]) -> Vec<bool> {
         let corners = scene.face_corners(face);
         let of = |corner: &ugscene::VertexId| colors[corner.index()];
         if corners.iter().any(|corner| of(corner) != of(&corners[0])) {
-            let displays = corners.iter().filter(|corner| of(corner).mixing(scene) == Mixing::Display);
+            let displays =
+                corners.iter().filter(|corner| of(corner).mixing(scene) == Mixing::Display);
             displays.for_each(|corner| is_mixed[corner.index()] = true);
         }
     }

@@ -40,9 +40,15 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene(note) => note.fmt(f),
-            Self::Scaled(largest) => write!(f, "max intensity is {}, scaled to 1.0", shown(*largest)),
-            Self::Clipped(largest) => write!(f, "max intensity is {}, clip to 1.0", shown(*largest)),
-            Self::Kept(largest) => write!(f, "max intensity is {}, kept for the renderer", shown(*largest)),
+            Self::Scaled(largest) => {
+                write!(f, "max intensity is {}, scaled to 1.0", shown(*largest))
+            }
+            Self::Clipped(largest) => {
+                write!(f, "max intensity is {}, clip to 1.0", shown(*largest))
+            }
+            Self::Kept(largest) => {
+                write!(f, "max intensity is {}, kept for the renderer", shown(*largest))
+            }
             Self::TooSaturated { color } => write!(
                 f,
                 "colour `{color}` is more saturated than a smooth spectrum can be, and is brought toward grey; \
@@ -54,7 +60,10 @@ impl fmt::Display for Note {
                 write!(f, "textures are left out: faces of colour `{color}` have its plain colour")
             }
             Self::DeferredTextures { color } => {
-                write!(f, "`{color}` is a texture: the renderer shifts colours, with a ray for each sample")
+                write!(
+                    f,
+                    "`{color}` is a texture: the renderer shifts colours, with a ray for each sample"
+                )
             }
             Self::NoLights => f.write_str("no lights in the scene, so its colours contain none"),
         }

@@ -35,7 +35,8 @@ impl DopplerQuantizer {
             for (cell, (points, change)) in points.windows(2).zip(&mut changes).enumerate() {
                 let gain = shift.ln_gain(ln_doppler[cell + 1]) - shift.ln_gain(ln_doppler[cell]);
                 for (from, to) in points[0].iter().zip(points[1]) {
-                    let change_of_ln = if shift.doppler { to.max(DARK) - from.max(DARK) } else { 0.0 };
+                    let change_of_ln =
+                        if shift.doppler { to.max(DARK) - from.max(DARK) } else { 0.0 };
                     *change = change.max((change_of_ln + gain).abs());
                 }
             }
@@ -59,12 +60,14 @@ impl DopplerQuantizer {
             return (ln_doppler.to_bits(), ln_doppler);
         }
         let (cell, part) = self.cell(ln_doppler);
-        let level = (self.levels[cell] + part * (self.levels[cell + 1] - self.levels[cell])).round();
+        let level =
+            (self.levels[cell] + part * (self.levels[cell + 1] - self.levels[cell])).round();
         (level.to_bits(), self.ln_at(level))
     }
 
     fn cell(&self, ln_doppler: f64) -> (usize, f64) {
-        let at = ((ln_doppler - self.ln_doppler[0]) / LN_STEP).clamp(0.0, (self.levels.len() - 1) as f64);
+        let at = ((ln_doppler - self.ln_doppler[0]) / LN_STEP)
+            .clamp(0.0, (self.levels.len() - 1) as f64);
         let cell = (at as usize).min(self.levels.len() - 2);
         (cell, at - cell as f64)
     }

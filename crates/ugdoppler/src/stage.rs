@@ -10,7 +10,8 @@ use crate::Config;
 pub(crate) fn with_seen_colors(scene: &Scene, config: &Config, eye: DVec3) -> Stage {
     let mut stage = scene.stage;
     // Then the colours depend on the eye, and positions were read as seen from it.
-    let depends_on_eye = !config.velocity.is_zero() || config.light && ugscene::has_moving_lights(scene);
+    let depends_on_eye =
+        !config.velocity.is_zero() || config.light && ugscene::has_moving_lights(scene);
     if stage.geometry == GeometryStage::AtRest && depends_on_eye {
         stage.geometry = GeometryStage::AsSeen(SeenGeometry {
             eye,

@@ -9,7 +9,11 @@ use ugscene::{RestFrames, Scene, SeenVertices, Vertex};
 pub(crate) fn used(scene: &Scene) -> Vec<bool> {
     let mut used = vec![false; scene.vertices.len()];
     for drawn in scene.drawn() {
-        scene.contours.corners(drawn.contours).iter().for_each(|corner| used[corner.index()] = true);
+        scene
+            .contours
+            .corners(drawn.contours)
+            .iter()
+            .for_each(|corner| used[corner.index()] = true);
     }
     used
 }

@@ -44,7 +44,8 @@ pub(crate) fn write(
     vertices: &SpectralVertices<'_>,
 ) -> Vec<Note> {
     let ln_factors = || vertices.rows(false).map(|row| vertices.ln_factors[row]);
-    let grid = DopplerGrid::new(ln_factors().fold(0.0, f64::min)..=ln_factors().fold(0.0, f64::max));
+    let grid =
+        DopplerGrid::new(ln_factors().fold(0.0, f64::min)..=ln_factors().fold(0.0, f64::max));
     let colors = spectral_colors(scene, vertices, &grid);
     let tolerance = config.bounded_tolerance() / 100.0;
     let quantizer = DopplerQuantizer::new(&grid, colors.iter().flatten(), shift, tolerance);
@@ -144,17 +145,19 @@ impl Plan {
                 let mixture = match shares {
                     ColorMix::One(color) => row(*color),
                     ColorMix::Mixed(parts) => {
-                        let bits = parts.iter().map(|&(color, share)| (color, share.to_bits())).collect();
+                        let bits =
+                            parts.iter().map(|&(color, share)| (color, share.to_bits())).collect();
                         let n_mixtures = mixtures.len();
                         colors.len() + *mixtures.entry(bits).or_insert(n_mixtures)
                     }
                 };
-                let is_tabulated = shares
-                    .parts()
-                    .all(|(color, _)| colors[row(color)].as_ref().is_some_and(SpectralColor::is_tabulated));
+                let is_tabulated = shares.parts().all(|(color, _)| {
+                    colors[row(color)].as_ref().is_some_and(SpectralColor::is_tabulated)
+                });
                 let ln = vertices.ln_factors[vertex];
                 // Colours of few vertices are computed for each D, without quantization.
-                let (step, ln) = if is_tabulated { quantizer.quantized(ln) } else { (ln.to_bits(), ln) };
+                let (step, ln) =
+                    if is_tabulated { quantizer.quantized(ln) } else { (ln.to_bits(), ln) };
                 // No translucency has these bits.
                 ([mixture as u64, step, 0, u64::MAX], Seen::Shifted(ln))
             };
@@ -191,7 +194,8 @@ fn expose(seen: &mut [[f64; 3]], largest: f64, iris: bool) -> Option<Note> {
 }
 
 fn changed_note(scene: &Scene, colors: &[Option<SpectralColor>]) -> Option<Note> {
-    let row = colors.iter().position(|color| color.as_ref().is_some_and(|color| !color.is_exact()))?;
+    let row =
+        colors.iter().position(|color| color.as_ref().is_some_and(|color| !color.is_exact()))?;
     let name = scene.names.get(scene.colors[row.checked_sub(1)?].name);
     Some(Note::TooSaturated { color: name.to_owned() })
 }
@@ -204,7 +208,8 @@ fn push_colors(
     plan: &Plan,
     seen: &[[f64; 3]],
 ) {
-    let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
+    let mut names: UniqueNames =
+        scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
     names.reserve(seen.len());
     let (mut n_mixed, mut n_lit) = (0, 0);
     let mut ids = Vec::with_capacity(seen.len());
@@ -223,7 +228,9 @@ fn push_colors(
                 let seen = |name: &str| quantizer.name_as_seen(name, ln_doppler);
                 match shares {
                     ColorMix::One(None) => seen("white"),
-                    ColorMix::One(Some(color)) => seen(scene.names.get(scene.colors[color.index()].name)),
+                    ColorMix::One(Some(color)) => {
+                        seen(scene.names.get(scene.colors[color.index()].name))
+                    }
                     ColorMix::Mixed(_) => {
                         n_mixed += 1;
                         seen(&format!("mixed{n_mixed}"))

@@ -57,8 +57,9 @@ impl Shot {
     /// It is the mean of moments, which has no false colours, channels and vectors.
     pub fn check(&self) -> Result<(), Error> {
         let PictureOptions { annotations, channels, output, .. } = &self.frame.picture;
-        let is_light =
-            annotations.map.is_none() && channels.is_empty() && !matches!(output, Output::Vector(_));
+        let is_light = annotations.map.is_none()
+            && channels.is_empty()
+            && !matches!(output, Output::Vector(_));
         if self.moments.is_empty() || is_light { Ok(()) } else { Err(Error::Mean) }
     }
 
@@ -121,7 +122,8 @@ pub fn is_made_of_light(picture: &PictureOptions, subject: FilmSubject<'_>) -> b
     let PictureOptions { annotations, channels, output, .. } = picture;
     let AnnotationOptions { legend, outline, grid, map, iso, .. } = annotations;
     let needs_scene = *legend || *outline || *grid || map.is_some() || iso.is_some();
-    let has_labels = matches!(subject, FilmSubject::Scene(scene) if scene.labels().next().is_some());
+    let has_labels =
+        matches!(subject, FilmSubject::Scene(scene) if scene.labels().next().is_some());
     !needs_scene && !has_labels && channels.is_empty() && !matches!(output, Output::Vector(_))
 }
 

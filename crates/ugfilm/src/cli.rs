@@ -10,8 +10,8 @@ use ugparse::{Source, pipe};
 use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, is_given, one_of,
-    parse_words, shell_os_word, whole,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, is_given,
+    one_of, parse_words, shell_os_word, whole,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
@@ -147,8 +147,10 @@ fn has_faces(matches: &ArgMatches) -> bool {
 }
 
 impl ToolArgs for Args {
-    const ESSENTIAL: &'static [&'static str] =
-        &["--frames", "-vel", "-cv", "-ti", "-ep", "-look", "-ex", "-sz", "-rays", "-only", "--print", "-fo"];
+    const ESSENTIAL: &'static [&'static str] = &[
+        "--frames", "-vel", "-cv", "-ti", "-ep", "-look", "-ex", "-sz", "-rays", "-only",
+        "--print", "-fo",
+    ];
 
     const LOOKS: Looks = Looks {
         default: Look::Light,
@@ -158,7 +160,11 @@ impl ToolArgs for Args {
             PictureArgs::AUTO_EXPOSURE,
             PictureArgs::FILMIC,
         ],
-        shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART.with(has_faces)],
+        shape: &[
+            ShiftArgs::REST_WAVELENGTHS,
+            ShiftArgs::REST_BRIGHTNESS,
+            RepeatArgs::APART.with(has_faces),
+        ],
     };
 
     fn common(&self) -> &CommonArgs {
@@ -180,9 +186,14 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         ));
     }
     if keep.is_some() && !matches!(output, Output::Film(_)) {
-        return Err(Failure::usage("--keep is for films in one file: leave it out, or give -fo film.apng"));
+        return Err(Failure::usage(
+            "--keep is for films in one file: leave it out, or give -fo film.apng",
+        ));
     }
-    if args.across.is_some() && !matches!(output, Output::Film(FilmKind::Html)) && args.print.is_none() {
+    if args.across.is_some()
+        && !matches!(output, Output::Film(FilmKind::Html))
+        && args.print.is_none()
+    {
         return Err(Failure::usage("-across is for pages: give -fo FILE.html"));
     }
     let rate = args.fps.unwrap_or(DEFAULT_RATE);
@@ -233,7 +244,10 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         };
         context.note(&told);
         tell_wrong(&measured.wrong, measured.n_frames, "measured", context);
-        let keys = measured.stops.iter().map(|&(frame, stops)| (script.time(f64::from(frame)), vec![stops]));
+        let keys = measured
+            .stops
+            .iter()
+            .map(|&(frame, stops)| (script.time(f64::from(frame)), vec![stops]));
         let exposure = match least == most {
             true => Timeline::Fixed(vec![least.to_string()]),
             false => Timeline::through(keys.collect(), Quantity::Plain).map_err(Failure::Failed)?,
@@ -259,7 +273,9 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
     }
     if film.script.is_still() && frames.len() > 1 {
-        context.note("no option has several values, so all frames are alike; give one, such as -ti 0..10");
+        context.note(
+            "no option has several values, so all frames are alike; give one, such as -ti 0..10",
+        );
     }
     let summary = match &output {
         Output::Files(names, _) => {
@@ -291,21 +307,30 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 /// Refuses a film that its format cannot hold.
-fn check_kind(kind: FilmKind, rate: f64, script: &Script, context: &Context) -> Result<(), Failure> {
+fn check_kind(
+    kind: FilmKind,
+    rate: f64,
+    script: &Script,
+    context: &Context,
+) -> Result<(), Failure> {
     // A frame that is wrong is reported when it is drawn.
     let Ok(Pipe { picture, .. }) = script.pipe(1.0, &[], Format::Png) else { return Ok(()) };
     let name = kind.name();
     if !kind.has_alpha() && picture.background == Background::Transparent {
-        let message = format!("{name} is not transparent: leave out -tb, or write an apng, gif or webm");
+        let message =
+            format!("{name} is not transparent: leave out -tb, or write an apng, gif or webm");
         return Err(Failure::Usage(message));
     }
     if picture.small {
-        return Err(Failure::Usage(format!("-pz packs PNG files, not a film in {name}: leave it out")));
+        return Err(Failure::Usage(format!(
+            "-pz packs PNG files, not a film in {name}: leave it out"
+        )));
     }
     let [width, height] = picture.size.map(|side| side.next_multiple_of(2));
     if kind == FilmKind::Mp4 && picture.size != [width, height] {
-        let message =
-            format!("widths and heights of mp4 are even: give -sz {width} {height}, or write a webm");
+        let message = format!(
+            "widths and heights of mp4 are even: give -sz {width} {height}, or write a webm"
+        );
         return Err(Failure::Usage(message));
     }
     if kind == FilmKind::Gif && rate > MOST_GIF_RATE {
@@ -327,7 +352,9 @@ fn exposure(
 ) -> Result<MeasuredExposure, Failure> {
     film.size()?;
     let key = names.map_or(Ok(None), |_| film.exposure_key(follows))?;
-    let Some((names, key)) = names.zip(key) else { return film.exposure(follows, &context.steps()) };
+    let Some((names, key)) = names.zip(key) else {
+        return film.exposure(follows, &context.steps());
+    };
     if let Some(stops) = kept_exposure(names, &key) {
         return Ok(MeasuredExposure { stops, ..MeasuredExposure::default() });
     }
@@ -343,7 +370,9 @@ fn exposure(
 fn follow(scene: &Scene, script: &mut Script) -> Result<(), Failure> {
     let is_placed = matches!(script.get("vc"), Some(timeline) if timeline.is_moving());
     if is_placed {
-        return Err(Failure::usage("-follow moves the view centre: leave out -vc with several values"));
+        return Err(Failure::usage(
+            "-follow moves the view centre: leave out -vc with several values",
+        ));
     }
     let centers = Sight::new(scene, script).centers()?;
     script.set_timeline("vc", centers);
@@ -358,11 +387,13 @@ fn tell_unseen(unseen: &Unseen, context: &Context) {
     }
     let remedy = match when {
         Some(when) => format!("what moves is in it with -ti {when}"),
-        None => "move the eye (-ep) or the view centre (-vc), widen -va, or try -in or -follow".to_owned(),
+        None => "move the eye (-ep) or the view centre (-vc), widen -va, or try -in or -follow"
+            .to_owned(),
     };
     let (count, list) = (frames.len(), ranges_of(frames));
-    context
-        .note(&format!("nothing will be in the picture in {count} of {n_frames} frames, {list}: {remedy}"));
+    context.note(&format!(
+        "nothing will be in the picture in {count} of {n_frames} frames, {list}: {remedy}"
+    ));
 }
 
 /// Says which of `n_frames` frames that were measured or drawn are nearly black or overexposed.
@@ -371,12 +402,18 @@ fn tell_wrong(wrong: &WrongBrightness, n_frames: usize, what_was_done: &str, con
         (&wrong.nearly_black, ugpicture::Note::NearlyBlack { is_exposed: true }, DARK_REMEDY),
         (&wrong.overexposed, ugpicture::Note::Overexposed, BRIGHT_REMEDY),
     ];
-    for (frames, finding, remedy) in findings.into_iter().filter(|(frames, ..)| !frames.is_empty()) {
+    for (frames, finding, remedy) in findings.into_iter().filter(|(frames, ..)| !frames.is_empty())
+    {
         // Measured frames are spread over the film, so a list of all of them is long.
         let which = match frames.len() {
-            count if count == n_frames => format!("all {n_frames} frames that were {what_was_done}"),
+            count if count == n_frames => {
+                format!("all {n_frames} frames that were {what_was_done}")
+            }
             count => {
-                format!("{count} of {n_frames} frames that were {what_was_done}, {}", ranges_of(frames))
+                format!(
+                    "{count} of {n_frames} frames that were {what_was_done}, {}",
+                    ranges_of(frames)
+                )
             }
         };
         context.note(&format!("{finding} in {which}: {remedy}"));
@@ -403,7 +440,8 @@ struct Forecast {
 fn tell(summary: &Summary, forecast: &Forecast, context: &Context) {
     let is_of_levels =
         |note: &crate::note::Note| note.of_picture().is_some_and(ugpicture::Note::is_of_levels);
-    let notes = summary.notes.iter().filter(|note| !is_of_levels(note)).flat_map(crate::note::Note::words);
+    let notes =
+        summary.notes.iter().filter(|note| !is_of_levels(note)).flat_map(crate::note::Note::words);
     notes.for_each(|note| context.note(&format!("first frame: {note}")));
     let Summary { n_drawn, n_done, n_elsewhere, empty, black, wrong, .. } = summary;
     let empty = &unless_all_are_in(&forecast.empty, empty);
@@ -412,12 +450,18 @@ fn tell(summary: &Summary, forecast: &Forecast, context: &Context) {
         overexposed: unless_all_are_in(&forecast.wrong.overexposed, &wrong.overexposed),
     };
     let shares = [
-        (empty, "nothing is in the picture", "try other times -ti, -in, another -vc or a wider -va"),
+        (
+            empty,
+            "nothing is in the picture",
+            "try other times -ti, -in, another -vc or a wider -va",
+        ),
         (black, "all that is in the picture is black", "try -look light, or -look shape"),
     ];
     for (frames, finding, remedy) in shares.into_iter().filter(|(frames, ..)| !frames.is_empty()) {
         let (count, list) = (frames.len(), ranges_of(frames));
-        context.note(&format!("{finding} in {count} of {n_drawn} frames that were drawn, {list}: {remedy}"));
+        context.note(&format!(
+            "{finding} in {count} of {n_drawn} frames that were drawn, {list}: {remedy}"
+        ));
     }
     tell_wrong(&wrong, *n_drawn as usize, "drawn", context);
     if *n_done + *n_elsewhere > 0 {
@@ -520,12 +564,15 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
     }
     // Frames that are wrong are reported when they are drawn.
     let motion = |step: u32| {
-        let frame = 1.0 + f64::from(step) / f64::from(FITTED_STEPS) * f64::from(script.n_frames - 1);
+        let frame =
+            1.0 + f64::from(step) / f64::from(FITTED_STEPS) * f64::from(script.n_frames - 1);
         script.pipe(frame, &[], Format::Png).ok()?.programs().iter().find_map(Program::motion)
     };
     let motions: Vec<MotionOptions> = (0..=FITTED_STEPS).filter_map(motion).collect();
-    let options = CameraOptions { is_ahead: script.get("ahead").is_some(), ..CameraOptions::default() };
-    ugscene::common_camera(scene, &options, [4, 3], &motions).map_err(|error| Failure::failed(error.words()))
+    let options =
+        CameraOptions { is_ahead: script.get("ahead").is_some(), ..CameraOptions::default() };
+    ugscene::common_camera(scene, &options, [4, 3], &motions)
+        .map_err(|error| Failure::failed(error.words()))
 }
 
 impl Args {
@@ -536,8 +583,8 @@ impl Args {
         script.reading = self.common.reading_words();
         self.options.given.iter().try_for_each(|option| script.add(option))?;
         if let Some([name, n_values]) = self.across.as_deref() {
-            let n_values =
-                whole(1..=1_000)(n_values).map_err(|why| Failure::Usage(format!("-across: {why}")))?;
+            let n_values = whole(1..=1_000)(n_values)
+                .map_err(|why| Failure::Usage(format!("-across: {why}")))?;
             script.set_across(name.trim_start_matches('-'), n_values)?;
         }
         if let Some(path) = &self.keys {
@@ -550,7 +597,12 @@ impl Args {
 
     /// The panorama of a file, of which the first frame says which part of the sphere it is, and
     /// stars.
-    fn panorama(&self, script: &Script, input: &Input, context: &Context) -> Result<ugwarp::Opened, Failure> {
+    fn panorama(
+        &self,
+        script: &Script,
+        input: &Input,
+        context: &Context,
+    ) -> Result<ugwarp::Opened, Failure> {
         let words = script.commands(1.0, &[])?.0.concat();
         parse_words::<ugwarp::Args>(words.into_iter().map(OsString::from))?.open(input, context)
     }

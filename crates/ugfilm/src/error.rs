@@ -31,7 +31,8 @@ impl ugpipe::Words for Error {
             Self::Program(error) => error.words(),
             Self::Picture(error) => error.words(),
             Self::Mean => {
-                "-blur gives the mean of several moments: leave out -map, -ch and vector formats".to_owned()
+                "-blur gives the mean of several moments: leave out -map, -ch and vector formats"
+                    .to_owned()
             }
             Self::Subject | Self::NoPixels => self.to_string(),
         }

@@ -50,7 +50,9 @@ mod tests {
         }
         let slope = smoothed(&metered(|frame| Some(0.1 * f64::from(frame)), 100), 100, false);
         let middle = slope.iter().filter(|(frame, _)| (13..=88).contains(frame));
-        assert!(middle.clone().all(|&(frame, stops)| (stops - 0.1 * f64::from(frame)).abs() < 0.006));
+        assert!(
+            middle.clone().all(|&(frame, stops)| (stops - 0.1 * f64::from(frame)).abs() < 0.006)
+        );
         assert_eq!(middle.count(), 76);
     }
 
@@ -58,8 +60,10 @@ mod tests {
     /// in a film that is played backwards.
     #[test]
     fn exposures_do_not_flicker() {
-        let flash = smoothed(&metered(|frame| Some(if frame == 50 { -5.0 } else { 0.0 }), 100), 100, false);
-        let step = smoothed(&metered(|frame| Some(if frame > 50 { -5.0 } else { 0.0 }), 100), 100, false);
+        let flash =
+            smoothed(&metered(|frame| Some(if frame == 50 { -5.0 } else { 0.0 }), 100), 100, false);
+        let step =
+            smoothed(&metered(|frame| Some(if frame > 50 { -5.0 } else { 0.0 }), 100), 100, false);
         for exposures in [&flash, &step] {
             assert!(exposures.windows(2).all(|pair| (pair[0].1 - pair[1].1).abs() < 0.45));
         }

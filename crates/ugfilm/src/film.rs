@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use ugimage::{Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png, read_png_header};
+use ugimage::{
+    Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png, read_png_header,
+};
 use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::film::{Caption, FilmKind, FilmShape, FrameNames};
@@ -244,12 +246,15 @@ impl Film<'_> {
             let all = LinearFrame::new([pixels.len() as u32, 1], true, pixels);
             vec![(1, auto_exposure(&all, picture.tone))]
         };
-        let mut exposure = MeasuredExposure { n_frames: frames.len(), ..MeasuredExposure::default() };
+        let mut exposure =
+            MeasuredExposure { n_frames: frames.len(), ..MeasuredExposure::default() };
         let mut held = BTreeMap::new();
         for (number, (measured, light)) in frames {
             let row = stops.partition_point(|(frame, _)| *frame <= number).saturating_sub(1);
             picture.exposure = stops.get(row).map(|(_, stops)| Exposure::Stops(*stops));
-            levels_note(&measured, &picture).iter().for_each(|note| exposure.wrong.add(number, note));
+            levels_note(&measured, &picture)
+                .iter()
+                .for_each(|note| exposure.wrong.add(number, note));
             held.extend(light.map(|light| (number, light)));
         }
         Ok(MeasuredExposure { stops, light: Mutex::new(held), ..exposure })
@@ -322,7 +327,8 @@ impl Film<'_> {
             && is_done(path, metadata)
         {
             let read = std::fs::read(path);
-            let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
+            let read =
+                read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
             return Ok((
                 read_png(&read, &PictureLimits::default()).map_err(Failure::failed)?.0,
                 Outcome::Done,
@@ -332,7 +338,10 @@ impl Film<'_> {
         if let Some((path, _)) = &kept {
             Context::write_now(path, &picture.clone().into_file())?;
         }
-        Ok((picture.into_frame().ok_or(Error::NoPixels).map_err(Failure::of)?, Outcome::Drawn(notes)))
+        Ok((
+            picture.into_frame().ok_or(Error::NoPixels).map_err(Failure::of)?,
+            Outcome::Drawn(notes),
+        ))
     }
 
     /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
@@ -340,7 +349,11 @@ impl Film<'_> {
     ///
     /// # Errors
     /// A frame cannot be drawn, or the sheet is too large.
-    pub fn sheet(&self, frames: &[u32], steps: &Steps<'_>) -> Result<(Frame, Vec<Picture>), Failure> {
+    pub fn sheet(
+        &self,
+        frames: &[u32],
+        steps: &Steps<'_>,
+    ) -> Result<(Frame, Vec<Picture>), Failure> {
         let (mut files, mut pictures) = (Vec::new(), Vec::new());
         self.each(
             ("drawing", steps),
@@ -358,7 +371,8 @@ impl Film<'_> {
             let read = read_png(&files[idx], &PictureLimits::default()).map(|(frame, _)| frame);
             read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
         };
-        let sheet = Sheet::new(&Config::default(), &pictures).and_then(|sheet| sheet.draw(frame_of));
+        let sheet =
+            Sheet::new(&Config::default(), &pictures).and_then(|sheet| sheet.draw(frame_of));
         Ok((sheet.map_err(|error| Failure::failed(error.words()))?, pictures))
     }
 

@@ -12,7 +12,8 @@ use ugsheet::film::FrameNames;
 /// The hidden file beside the first frame that has the exposure of the film.
 fn exposure_of(names: &FrameNames) -> PathBuf {
     let first = names.path(1);
-    let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let name =
+        first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     first.with_file_name(format!(".{name}.exposure"))
 }
 
@@ -48,7 +49,10 @@ pub fn keep_exposure(names: &FrameNames, key: &str, stops: &[(u32, f64)]) -> Res
 /// Removes the file that [`kept_exposure`] reads, if all `n_frames` frames are there.
 pub fn remove_kept_exposure(names: &FrameNames, n_frames: u32) {
     let kept = exposure_of(names);
-    if !is_occupied(&kept) && kept.exists() && (1..=n_frames).all(|frame| names.path(frame).exists()) {
+    if !is_occupied(&kept)
+        && kept.exists()
+        && (1..=n_frames).all(|frame| names.path(frame).exists())
+    {
         // What cannot be removed does no harm.
         let _ = fs::remove_file(kept);
     }
@@ -163,7 +167,10 @@ mod tests {
         let found = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
         let mut found: Vec<String> = found.map(|name| name.into_string().unwrap()).collect();
         found.sort();
-        assert_eq!(found, [".f_07.png.claim", ".f_x.png.claim", ".g_03.png.claim", "f_04.png.claim"]);
+        assert_eq!(
+            found,
+            [".f_07.png.claim", ".f_x.png.claim", ".g_03.png.claim", "f_04.png.claim"]
+        );
         drop(held);
         assert!(!claim_of(&names.path(7)).exists());
     }

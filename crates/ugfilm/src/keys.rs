@@ -37,10 +37,16 @@ pub fn add(script: &mut Script, name: &str, text: &str) -> Result<(), String> {
         let Some(first) = words.next() else { continue };
         let frame = first.parse::<u32>().ok().filter(|frame| (1..=script.n_frames).contains(frame));
         let frame = frame.ok_or_else(|| {
-            at(format!("a line begins with a frame from 1 to {}, not `{}`", script.n_frames, shorten(first)))
+            at(format!(
+                "a line begins with a frame from 1 to {}, not `{}`",
+                script.n_frames,
+                shorten(first)
+            ))
         })?;
         if frame <= last {
-            return Err(at(format!("frame {frame} comes after frame {last}: put them in order, each once")));
+            return Err(at(format!(
+                "frame {frame} comes after frame {last}: put them in order, each once"
+            )));
         }
         last = frame;
         for (option, numbers) in numbers_of(words).map_err(at)? {
@@ -56,7 +62,8 @@ pub fn add(script: &mut Script, name: &str, text: &str) -> Result<(), String> {
         return Err(format!("{name}: no frame has an option: write lines such as `1 -ti -10`"));
     }
     for (option, keys) in options {
-        let keys = keys.into_iter().map(|(frame, numbers)| (script.time(f64::from(frame)), numbers));
+        let keys =
+            keys.into_iter().map(|(frame, numbers)| (script.time(f64::from(frame)), numbers));
         let timeline = Timeline::through(keys.collect(), quantity(&option))
             .map_err(|problem| format!("{name}: `-{option}`: {problem}"))?;
         script.add_timeline(&option, timeline).map_err(|failure| format!("{name}: {failure}"))?;
@@ -74,7 +81,9 @@ fn numbers_of<'w>(words: impl Iterator<Item = &'w str>) -> Result<Vec<(String, V
             (Err(_), _) if word.starts_with('-') => {
                 options.push((word.trim_start_matches('-').to_owned(), Vec::new()));
             }
-            (Err(_), _) => return Err(format!("`{}` is neither an option nor a number", shorten(word))),
+            (Err(_), _) => {
+                return Err(format!("`{}` is neither an option nor a number", shorten(word)));
+            }
         }
     }
     match options.iter().find(|(_, numbers)| numbers.is_empty()) {
@@ -96,7 +105,8 @@ mod tests {
     #[test]
     fn options_go_through_their_frames() {
         let script =
-            read("# a flight\n1 -ti -10 -ep 0 0 5\n\n6 -ti 0\n11 -ti 30 -ep 0 0 10 # end\n").unwrap();
+            read("# a flight\n1 -ti -10 -ep 0 0 5\n\n6 -ti 0\n11 -ti 30 -ep 0 0 10 # end\n")
+                .unwrap();
         let line = |frame| script.commands(frame, &[]).unwrap().line(Some("a.ug"), None);
         let begins = |frame, options: &str| {
             let line = line(frame);
@@ -110,8 +120,12 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_told_with_its_line() {
-        let check = |text: &str, expected: &str| assert_eq!(read(text).err().as_deref(), Some(expected));
-        check("1 -ti 0\n1 -ti 1", "keys:2: frame 1 comes after frame 1: put them in order, each once");
+        let check =
+            |text: &str, expected: &str| assert_eq!(read(text).err().as_deref(), Some(expected));
+        check(
+            "1 -ti 0\n1 -ti 1",
+            "keys:2: frame 1 comes after frame 1: put them in order, each once",
+        );
         check("12 -ti 0", "keys:1: a line begins with a frame from 1 to 11, not `12`");
         check("-ti 0", "keys:1: a line begins with a frame from 1 to 11, not `-ti`");
         check("1 0 -ti", "keys:1: `0` stands before any option");

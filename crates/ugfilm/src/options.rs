@@ -43,7 +43,8 @@ macro_rules! tool {
             command: $krate::Args::command,
             look: <$krate::Args as ToolArgs>::LOOKS.default,
             parse: |words| {
-                let ($args, line): ($krate::Args, _) = parse_command(words.iter().map(OsString::from))?;
+                let ($args, line): ($krate::Args, _) =
+                    parse_command(words.iter().map(OsString::from))?;
                 let config = $config?;
                 let line = $line(&$args, line, &config);
                 let (program, common) = (Program::$variant(config), $args.common().clone());
@@ -175,8 +176,9 @@ impl Tool {
         let common = Bare::command();
         let is_common = |name: &str| common.get_arguments().any(|arg| arg.get_long() == Some(name));
         let is_own = |arg: &&Arg| {
-            arg.get_long()
-                .is_some_and(|name| !is_common(name) && !LEFT_OUT.contains(&name) && !arg.is_hide_set())
+            arg.get_long().is_some_and(|name| {
+                !is_common(name) && !LEFT_OUT.contains(&name) && !arg.is_hide_set()
+            })
         };
         (self.command)().get_arguments().filter(is_own).cloned().collect()
     }
@@ -241,8 +243,9 @@ fn all_options() -> Vec<Arg> {
                 continue;
             }
             let is_exposure = arg.get_long() == Some(EXPOSURE);
-            let is_taken =
-                |alias: &str| options.iter().any(|other| all_names(other).any(|name| name == alias));
+            let is_taken = |alias: &str| {
+                options.iter().any(|other| all_names(other).any(|name| name == alias))
+            };
             // Options of two programs may have the same second name.
             let has_own_names = all_names(&arg).skip(1).all(|alias| !is_taken(alias));
             let mut arg = of_film(arg, tool.heading);

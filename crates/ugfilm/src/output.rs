@@ -34,7 +34,8 @@ impl Output {
         }
         let name = file.map(|path| path.to_string_lossy().into_owned());
         let names = name.as_deref().and_then(FrameNames::new);
-        let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
+        let ending =
+            file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
         let word = format.map(str::to_owned).or(ending);
         let kind = word.as_deref().and_then(FilmKind::from_name);
         match (names, kind) {
@@ -50,7 +51,9 @@ impl Output {
             ))),
             (None, None) => {
                 let kinds = FilmKind::ALL.map(FilmKind::name).join(", ");
-                let other = word.map(|word| format!("`{word}` is not a kind of film; ")).unwrap_or_default();
+                let other = word
+                    .map(|word| format!("`{word}` is not a kind of film; "))
+                    .unwrap_or_default();
                 Err(Failure::Usage(format!(
                     "{other}give numbered files, -fo frame_%04d.png, or a film: -fo FILE or -dt with {kinds}"
                 )))
@@ -87,6 +90,8 @@ impl Output {
 pub fn names_of(pattern: &str, option: &str) -> Result<FrameNames, Failure> {
     let is_png = pattern.to_ascii_lowercase().ends_with(".png");
     FrameNames::new(pattern).filter(|_| is_png).ok_or_else(|| {
-        Failure::Usage(format!("{option} names numbered PNG files, such as frame_%04d.png, not `{pattern}`"))
+        Failure::Usage(format!(
+            "{option} names numbered PNG files, such as frame_%04d.png, not `{pattern}`"
+        ))
     })
 }

@@ -59,7 +59,9 @@ impl Pipe {
     pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
         let mut head = match subject {
             FilmSubject::Scene(scene) => scene.head.clone(),
-            FilmSubject::Panorama(_, origin) => Head { origin: Some(origin.to_owned()), ..Head::default() },
+            FilmSubject::Panorama(_, origin) => {
+                Head { origin: Some(origin.to_owned()), ..Head::default() }
+            }
         };
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
         for (filter, line) in filters.iter().zip(&self.lines) {
@@ -145,8 +147,9 @@ impl Pipe {
         let [width, height] = self.picture.size;
         let longest = width.max(height).max(1);
         if longest > side {
-            let scaled =
-                |length: u32| ((u64::from(length) * u64::from(side)) / u64::from(longest)).max(1) as u32;
+            let scaled = |length: u32| {
+                ((u64::from(length) * u64::from(side)) / u64::from(longest)).max(1) as u32
+            };
             self.picture.size = [scaled(width), scaled(height)];
         }
         self.picture.channels.clear();

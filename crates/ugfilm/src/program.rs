@@ -86,7 +86,9 @@ impl Program {
     /// The panorama that a picture with these options is, of a program that draws panoramas.
     pub fn panorama(&self, picture: &PictureOptions) -> Option<PanoramaArea> {
         match self {
-            Self::Photon(config) => config.lens.panorama(picture, config.stereo.is_some(), config.crop),
+            Self::Photon(config) => {
+                config.lens.panorama(picture, config.stereo.is_some(), config.crop)
+            }
             Self::Warp(config) => config.lens.panorama(picture, false, None),
             Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => None,
         }

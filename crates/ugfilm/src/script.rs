@@ -118,7 +118,10 @@ impl Script {
                 TOOLS.iter().filter(|tool| tool.has(name)).map(|tool| tool.name()).collect();
             let why = match owners[..] {
                 [] => "no program has it".to_owned(),
-                _ => format!("it is an option of {}, which draws no frame here", owners.join(" and ")),
+                _ => format!(
+                    "it is an option of {}, which draws no frame here",
+                    owners.join(" and ")
+                ),
             };
             return Err(refused(name, &why));
         }
@@ -136,7 +139,11 @@ impl Script {
         if let Some(setting) = self.options.iter_mut().find(|setting| setting.name == name) {
             setting.timeline = timeline;
         } else {
-            self.options.push(Setting { name: name.to_owned(), owners: self.owners(name), timeline });
+            self.options.push(Setting {
+                name: name.to_owned(),
+                owners: self.owners(name),
+                timeline,
+            });
         }
     }
 
@@ -150,11 +157,16 @@ impl Script {
         let (across, along): (Vec<_>, Vec<_>) =
             self.options.iter().filter(is_moving).partition(|setting| setting.name == name);
         if across.is_empty() || along.is_empty() {
-            let why = format!("give two options with several values, one of them -{name}, as -{name} 0..1");
+            let why = format!(
+                "give two options with several values, one of them -{name}, as -{name} 0..1"
+            );
             return Err(refused("across", &why));
         }
         if self.lacks_speeds() {
-            return Err(refused("across", "{beta}, {gamma} and {speed} are known only with -vel or -cv"));
+            return Err(refused(
+                "across",
+                "{beta}, {gamma} and {speed} are known only with -vel or -cv",
+            ));
         }
         self.across = Some((name.to_owned(), n_values));
         self.n_frames = self.n_frames.saturating_mul(n_values);
@@ -186,8 +198,9 @@ impl Script {
 
     /// True if a caption has speeds and no option gives them.
     pub fn lacks_speeds(&self) -> bool {
-        let has_place =
-            |text: &String| ["{beta}", "{gamma}", "{speed}"].iter().any(|place| text.contains(place));
+        let has_place = |text: &String| {
+            ["{beta}", "{gamma}", "{speed}"].iter().any(|place| text.contains(place))
+        };
         let is_given = VELOCITIES.iter().any(|name| self.get(name).is_some());
         !is_given && TEXTS.iter().any(|name| self.fixed(name).as_ref().is_some_and(has_place))
     }
@@ -199,7 +212,8 @@ impl Script {
 
     /// The programs of the pipe that are given an option.
     fn owners(&self, name: &str) -> Vec<usize> {
-        let owners = self.tools.iter().enumerate().filter(|(_, tool)| tool.has(name)).map(|(row, _)| row);
+        let owners =
+            self.tools.iter().enumerate().filter(|(_, tool)| tool.has(name)).map(|(row, _)| row);
         owners.take(if FOR_ALL.contains(&name) { usize::MAX } else { 1 }).collect()
     }
 
@@ -212,7 +226,8 @@ impl Script {
     /// two.
     pub fn time(&self, frame: f64) -> f64 {
         let n_frames = self.n_frames / self.n_rows();
-        let frame = if self.across.is_some() { 1.0 + (frame - 1.0) % f64::from(n_frames) } else { frame };
+        let frame =
+            if self.across.is_some() { 1.0 + (frame - 1.0) % f64::from(n_frames) } else { frame };
         let steps = if self.is_loop { n_frames } else { n_frames - 1 };
         let time = if steps == 0 { 0.0 } else { (frame - 1.0) / f64::from(steps) };
         // With motion blur, the first frame of a film that repeats begins at its end.
@@ -393,7 +408,8 @@ impl Script {
             let speeds = match &self.speeds {
                 Some(speeds) => speeds.numbers(self.time(frame), self.ease),
                 None => {
-                    let velocity = VELOCITIES.iter().rev().find_map(|name| numbers(name)).unwrap_or_default();
+                    let velocity =
+                        VELOCITIES.iter().rev().find_map(|name| numbers(name)).unwrap_or_default();
                     vec![velocity.iter().fold(0.0, |sum, part| libm::hypot(sum, *part))]
                 }
             };
@@ -404,9 +420,12 @@ impl Script {
         Some(match name {
             "frame" => format!("{frame}"),
             "beta" => speeds(&|speed| format!("{speed:.3}")),
-            "gamma" => speeds(&|speed| format!("{:.2}", 1.0 / ((1.0 - speed) * (1.0 + speed)).sqrt())),
+            "gamma" => {
+                speeds(&|speed| format!("{:.2}", 1.0 / ((1.0 - speed) * (1.0 + speed)).sqrt()))
+            }
             "speed" => {
-                let unit = self.units().speed().unwrap_or(Unit { factor: 1.0, name: "c".to_owned() });
+                let unit =
+                    self.units().speed().unwrap_or(Unit { factor: 1.0, name: "c".to_owned() });
                 format!("{} {}", speeds(&|speed| significant(speed * unit.factor, 4)), unit.name)
             }
             "t" => {
@@ -416,8 +435,8 @@ impl Script {
                 };
                 let longest = [0.0, 1.0].map(|end| at(end).unwrap_or(0.0).abs());
                 let unit = self.units().time(longest[0].max(longest[1]));
-                let (factor, name) =
-                    unit.map_or((1.0, String::new()), |unit| (unit.factor, format!(" {}", unit.name)));
+                let (factor, name) = unit
+                    .map_or((1.0, String::new()), |unit| (unit.factor, format!(" {}", unit.name)));
                 format!("{:.2}{name}", factor * at(self.time_of("ti", frame)).unwrap_or(0.0))
             }
             _ => match numbers(name)?[..] {
@@ -443,7 +462,8 @@ impl Commands {
         if let (Some(first), Some(input)) = (words.first_mut(), input) {
             first.insert(1, input.to_owned());
         }
-        let mut line = words.iter().map(|words| words.join(" ")).collect::<Vec<String>>().join(" | ");
+        let mut line =
+            words.iter().map(|words| words.join(" ")).collect::<Vec<String>>().join(" | ");
         if let Some(output) = output {
             // Writing to a string cannot fail.
             let _ = write!(line, " > {}", shell_word(output));

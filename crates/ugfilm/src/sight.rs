@@ -4,7 +4,9 @@
 use ugimage::Format;
 use ugpicture::lens::Lens;
 use ugpipe::Failure;
-use ugscene::{BodyBoxes, CameraOptions, MotionError, MotionOptions, Scene, SeenBoxes, TimesInView};
+use ugscene::{
+    BodyBoxes, CameraOptions, MotionError, MotionOptions, Scene, SeenBoxes, TimesInView,
+};
 
 use crate::pipe::Pipe;
 use crate::program::Program;
@@ -51,7 +53,9 @@ impl Shown {
                 }
                 Program::Photon(config) => (
                     pipe.picture.camera.clone(),
-                    config.lens == Lens::Pinhole && config.stereo.is_none() && config.crop.is_none(),
+                    config.lens == Lens::Pinhole
+                        && config.stereo.is_none()
+                        && config.crop.is_none(),
                 ),
                 _ => return None,
             };
@@ -81,7 +85,9 @@ impl<'s> Sight<'s> {
         let looked_at: Vec<u32> = frames.iter().copied().step_by(step).collect();
         let is_unseen = |frame: &u32| {
             let shown = self.shown(f64::from(*frame)).filter(|shown| shown.is_flat);
-            shown.is_some_and(|shown| shown.seen(&self.boxes).is_ok_and(|seen| seen.are_out_of_view()))
+            shown.is_some_and(|shown| {
+                shown.seen(&self.boxes).is_ok_and(|seen| seen.are_out_of_view())
+            })
         };
         let n_frames = looked_at.len();
         let unseen: Vec<u32> = looked_at.into_iter().filter(is_unseen).collect();
@@ -98,7 +104,8 @@ impl<'s> Sight<'s> {
     /// No frame has bodies in a direction.
     pub fn centers(&self) -> Result<Timeline, Failure> {
         let centers = self.over_film(|seen| Some(seen.center()?.to_array().to_vec()));
-        centers.ok_or_else(|| Failure::failed("-follow: in no frame is there a body in any direction"))
+        centers
+            .ok_or_else(|| Failure::failed("-follow: in no frame is there a body in any direction"))
     }
 
     /// [`SeenBoxes::speeds`] over the film; `None` if all frames are wrong.

@@ -43,8 +43,9 @@ impl Timeline {
     /// # Errors
     /// The error in the values.
     pub fn new(words: Vec<String>, quantity: Quantity) -> Result<Self, String> {
-        let values =
-            |word: &String| word.split("..").map(|part| finite(part.trim())).collect::<Result<Vec<f64>, _>>();
+        let values = |word: &String| {
+            word.split("..").map(|part| finite(part.trim())).collect::<Result<Vec<f64>, _>>()
+        };
         // `0...1` is from 0 to 1 for some, and from 0 to .1 for others.
         if let Some(word) = words.iter().find(|word| word.contains("...") && values(word).is_ok()) {
             let (before, after) = word.split_once("...").unwrap_or((word, ""));
@@ -92,7 +93,9 @@ impl Timeline {
     pub fn at(&self, time: f64, ease: Ease) -> Vec<String> {
         match self {
             Self::Fixed(words) => words.clone(),
-            Self::Moving { .. } => self.numbers(time, ease).into_iter().map(|n| format!("{n}")).collect(),
+            Self::Moving { .. } => {
+                self.numbers(time, ease).into_iter().map(|n| format!("{n}")).collect()
+            }
         }
     }
 
@@ -100,14 +103,19 @@ impl Timeline {
     pub fn numbers(&self, time: f64, ease: Ease) -> Vec<f64> {
         let (keys, quantity) = match self {
             Self::Fixed(words) => {
-                return words.iter().map(|word| finite(word)).collect::<Result<_, _>>().unwrap_or_default();
+                return words
+                    .iter()
+                    .map(|word| finite(word))
+                    .collect::<Result<_, _>>()
+                    .unwrap_or_default();
             }
             Self::Moving { keys, quantity } => (keys, *quantity),
         };
         let mut numbers = match given(keys, time) {
             Some(numbers) => numbers.to_vec(),
             None if quantity == Quantity::Velocity => {
-                let rapidities: Vec<_> = keys.iter().map(|(at, beta)| (*at, rapidity(beta))).collect();
+                let rapidities: Vec<_> =
+                    keys.iter().map(|(at, beta)| (*at, rapidity(beta))).collect();
                 let numbers = between(&rapidities, time, ease);
                 let rapidity = norm(&numbers);
                 scaled(&numbers, if rapidity > 0.0 { libm::tanh(rapidity) / rapidity } else { 1.0 })
@@ -230,9 +238,15 @@ mod tests {
         assert_eq!(speeds.at(1.0, Ease::Linear)[1], "0.99");
         for (time, expected) in [(0.0, "0 0 0.3"), (0.5, "0.9 0.1 0.3"), (1.0, "0.7 0.7 -0.1")] {
             let words = ["0..0.9..0.7", "0..0.1..0.7", ".3..0.3..-.1"];
-            assert_eq!(timeline(&words, Quantity::Velocity).at(time, Ease::Smooth).join(" "), expected);
+            assert_eq!(
+                timeline(&words, Quantity::Velocity).at(time, Ease::Smooth).join(" "),
+                expected
+            );
         }
-        assert_eq!(timeline(&["0..0", ".9", "0"], Quantity::Velocity).at(0.3, Ease::Linear)[1], "0.9");
+        assert_eq!(
+            timeline(&["0..0", ".9", "0"], Quantity::Velocity).at(0.3, Ease::Linear)[1],
+            "0.9"
+        );
         // Half the rapidity of 0.99: Bondi's k = √199 becomes its root.
         let half = speeds.numbers(0.5, Ease::Linear)[1];
         let k = 199f64.sqrt();
@@ -241,7 +255,10 @@ mod tests {
         for step in 0..=10 {
             assert!(norm(&turned.numbers(f64::from(step) / 10.0, Ease::Smooth)) < 1.0);
         }
-        let fast = Timeline::new(vec!["0".to_owned(), "0".to_owned(), "0..1".to_owned()], Quantity::Velocity);
+        let fast = Timeline::new(
+            vec!["0".to_owned(), "0".to_owned(), "0..1".to_owned()],
+            Quantity::Velocity,
+        );
         assert_eq!(fast, Err("speed is 1 c: it must be below 1".to_owned()));
     }
 

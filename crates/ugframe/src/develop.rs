@@ -161,7 +161,11 @@ fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
             part
         }
     });
-    if part == 1.0 { rgb } else { rgb.map(|channel| (grey + part * (channel - grey)).clamp(0.0, 1.0)) }
+    if part == 1.0 {
+        rgb
+    } else {
+        rgb.map(|channel| (grey + part * (channel - grey)).clamp(0.0, 1.0))
+    }
 }
 
 /// The fraction of lit pixels that automatic exposure keeps at or below the white point.
@@ -200,7 +204,8 @@ mod tests {
     /// The published code, for a scalar.
     #[test]
     fn filmic_is_as_published() {
-        let f = |x: f64| ((x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06)) - 0.02 / 0.3;
+        let f =
+            |x: f64| ((x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06)) - 0.02 / 0.3;
         for x in [0.0, 0.01, 0.18, 0.5, 1.0, 2.0, 5.5999] {
             assert!((Tone::Filmic.at(x) - f(2.0 * x) / f(11.2)).abs() < 1e-15, "{x}");
         }
@@ -251,7 +256,9 @@ mod tests {
                     let away = |rgb: [f64; 3]| rgb.map(|channel| channel - luminance(rgb));
                     let (before, after) = (away(exposed), away(shown));
                     let across = cross(before, after);
-                    assert!(dot(across, across).sqrt() <= 1e-9 * dot(before, before).sqrt().max(1.0));
+                    assert!(
+                        dot(across, across).sqrt() <= 1e-9 * dot(before, before).sqrt().max(1.0)
+                    );
                     assert!(dot(before, after) >= -1e-12);
                 }
             }
@@ -285,7 +292,10 @@ mod tests {
                 for tone in Tone::ALL {
                     for stops in [0.0, 1000.0, -1000.0, 3.0] {
                         let shown = Development { stops, tone }.apply([r, g, 0.5]);
-                        assert!(shown.iter().all(|x| (0.0..=1.0).contains(x)), "{r} {g} {stops}: {shown:?}");
+                        assert!(
+                            shown.iter().all(|x| (0.0..=1.0).contains(x)),
+                            "{r} {g} {stops}: {shown:?}"
+                        );
                     }
                 }
             }
@@ -296,18 +306,23 @@ mod tests {
     fn automatic_exposure_shows_99_of_100_below_white() {
         // Of high contrast: 600 of 1000 pixels are lit by less than a hundredth of the brightest.
         let light = (1..=1000u16).map(|k| f32::from(k) * if k > 600 { 0.37 } else { 0.0037 });
-        let frame =
-            LinearFrame::new([100, 10], true, light.map(|light| [light, light, light, 1.0]).collect());
+        let frame = LinearFrame::new(
+            [100, 10],
+            true,
+            light.map(|light| [light, light, light, 1.0]).collect(),
+        );
         for tone in Tone::ALL {
             let gain = libm::exp2(auto_exposure(&frame, tone));
-            let white = frame.pixels().iter().filter(|p| f64::from(p[0]) * gain >= tone.white()).count();
+            let white =
+                frame.pixels().iter().filter(|p| f64::from(p[0]) * gain >= tone.white()).count();
             // Rounding the exposure to a hundredth of a stop changes light by up to 0.35 percent.
             assert!((4..=17).contains(&white), "{tone:?}: {white}");
         }
         let black = LinearFrame::new([1, 1], true, vec![[0.0, 0.0, 0.0, 1.0]]);
         assert_eq!(auto_exposure(&black, Tone::Clip), 0.0);
         // Uncovered pixels do not count.
-        let back = LinearFrame::new([2, 1], true, vec![[9.0, 9.0, 9.0, 0.0], [0.25, 0.25, 0.25, 0.5]]);
+        let back =
+            LinearFrame::new([2, 1], true, vec![[9.0, 9.0, 9.0, 0.0], [0.25, 0.25, 0.25, 0.5]]);
         assert_eq!(auto_exposure(&back, Tone::Clip), 2.0);
         // One brightness is not shown as white by a filmic curve.
         let shown = Tone::Filmic.at(0.25 * libm::exp2(auto_exposure(&back, Tone::Filmic)));

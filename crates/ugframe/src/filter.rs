@@ -61,6 +61,8 @@ impl Filter {
     pub fn weights(self, n: u32) -> Vec<f32> {
         let place = |sample: u32| (f64::from(sample) + 0.5) / f64::from(n) - 0.5;
         let first = f64::from(self.margin());
-        (0..n * (1 + 2 * self.margin())).map(|sample| self.at(place(sample) - first) as f32).collect()
+        (0..n * (1 + 2 * self.margin()))
+            .map(|sample| self.at(place(sample) - first) as f32)
+            .collect()
     }
 }

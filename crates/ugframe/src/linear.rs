@@ -61,11 +61,14 @@ impl LinearFrame {
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
         assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
         // Without branches, so that several numbers are compared at once.
-        let is_odd =
-            |pixel: &[f32; 4]| pixel.iter().fold(false, |is_odd, number| is_odd | !number.is_finite());
+        let is_odd = |pixel: &[f32; 4]| {
+            pixel.iter().fold(false, |is_odd, number| is_odd | !number.is_finite())
+        };
         for pixel in pixels.iter_mut().filter(|pixel| is_odd(pixel)) {
-            let least = if pixel.iter().any(|number| number.is_infinite()) { 0.0 } else { -f32::MAX };
-            *pixel = pixel.map(|number| if number.is_nan() { 0.0 } else { number.clamp(least, f32::MAX) });
+            let least =
+                if pixel.iter().any(|number| number.is_infinite()) { 0.0 } else { -f32::MAX };
+            *pixel = pixel
+                .map(|number| if number.is_nan() { 0.0 } else { number.clamp(least, f32::MAX) });
         }
         Self { width, height, is_opaque, pixels, planes: Vec::new() }
     }
@@ -120,13 +123,21 @@ impl LinearFrame {
     pub fn to_display(&self) -> Frame {
         let quantizer = Quantizer::new();
         let level = |&light: &[f32; 4]| display_pixel(&quantizer, light, self.is_opaque);
-        Frame::new([self.width, self.height], self.is_opaque, self.pixels.iter().map(level).collect())
+        Frame::new(
+            [self.width, self.height],
+            self.is_opaque,
+            self.pixels.iter().map(level).collect(),
+        )
     }
 }
 
 /// A pixel display-encoded with 8 bits per channel: red, green, blue and alpha.
 #[inline]
-pub fn display_pixel(quantizer: &Quantizer, [red, green, blue, part]: [f32; 4], is_opaque: bool) -> [u8; 4] {
+pub fn display_pixel(
+    quantizer: &Quantizer,
+    [red, green, blue, part]: [f32; 4],
+    is_opaque: bool,
+) -> [u8; 4] {
     if !is_opaque && part == 0.0 {
         return [0; 4];
     }
@@ -137,7 +148,8 @@ pub fn display_pixel(quantizer: &Quantizer, [red, green, blue, part]: [f32; 4], 
 
 impl From<&Frame> for LinearFrame {
     fn from(frame: &Frame) -> Self {
-        let linear: [f32; 256] = std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32);
+        let linear: [f32; 256] =
+            std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32);
         let light = |&[red, green, blue, alpha]: &[u8; 4]| {
             let [red, green, blue] = [red, green, blue].map(|level| linear[usize::from(level)]);
             [red, green, blue, f32::from(alpha) / 255.0]
@@ -166,7 +178,8 @@ mod tests {
 
     #[test]
     fn display_levels_round_trip_through_light() {
-        let clear = [0, 1, 255].map(|alpha| (0..=255).map(move |level| [level, 255 - level, 7, alpha]));
+        let clear =
+            [0, 1, 255].map(|alpha| (0..=255).map(move |level| [level, 255 - level, 7, alpha]));
         let clear = Frame::new([256, 3], false, clear.into_iter().flatten().collect());
         let opaque = Frame::new([256, 1], true, clear.pixels()[512..].to_vec());
         for frame in [clear, opaque] {

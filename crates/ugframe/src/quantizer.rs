@@ -133,10 +133,15 @@ mod tests {
     #[test]
     fn levels_change_where_they_should() {
         let quantizer = Quantizer::new();
-        let near = |x: f32| (-3..=3).map(move |step| f32::from_bits(x.to_bits().saturating_add_signed(step)));
+        let near = |x: f32| {
+            (-3..=3).map(move |step| f32::from_bits(x.to_bits().saturating_add_signed(step)))
+        };
         let ends = (1..=CELLS).map(|cell| cell as f32 / CELLS as f32);
         for linear in quantizer.thresholds[..255].iter().copied().chain(ends).flat_map(near) {
-            let exact = quantizer.thresholds[..255].iter().filter(|threshold| **threshold <= linear).count();
+            let exact = quantizer.thresholds[..255]
+                .iter()
+                .filter(|threshold| **threshold <= linear)
+                .count();
             assert_eq!(usize::from(quantizer.level(linear)), exact, "{linear}");
         }
     }

@@ -61,7 +61,8 @@ impl Encoding {
         let is_srgb = |curve: &Curve| {
             levels.clone().all(|level| (curve.decode(level) - srgb_decode(level)).abs() < SAME)
         };
-        let is_same = curves.iter().all(is_srgb) && srgb_from_light.abs_diff_eq(DMat3::IDENTITY, SAME);
+        let is_same =
+            curves.iter().all(is_srgb) && srgb_from_light.abs_diff_eq(DMat3::IDENTITY, SAME);
         (!is_same).then_some(Self { curves, srgb_from_light })
     }
 
@@ -76,13 +77,15 @@ impl Encoding {
         });
         let primaries = DMat3::from_cols(columns[0], columns[1], columns[2]);
         // With X, Y and Z as primaries, the channels are X, Y and Z, whatever white is stated.
-        let amounts = if primaries == DMat3::IDENTITY { DVec3::ONE } else { primaries.inverse() * white };
+        let amounts =
+            if primaries == DMat3::IDENTITY { DVec3::ONE } else { primaries.inverse() * white };
         let xyz_from_light = primaries * DMat3::from_diagonal(amounts);
         let curve = gamma.map_or(Curve::Gamma(1.0), |gamma| {
             if (gamma - SRGB_GAMMA).abs() < 0.1 { Curve::Srgb } else { Curve::Gamma(gamma) }
         });
         let matrix = srgb_from_xyz() * xyz_from_light;
-        let matrix = if matrix.abs_diff_eq(DMat3::IDENTITY, SAME) { DMat3::IDENTITY } else { matrix };
+        let matrix =
+            if matrix.abs_diff_eq(DMat3::IDENTITY, SAME) { DMat3::IDENTITY } else { matrix };
         if !matrix.is_finite() {
             return None;
         }
@@ -105,8 +108,9 @@ impl Encoding {
         let fixed = |at: usize| number(at).map(|bits| f64::from(bits as i32) / 65536.0);
         let tag = |name: &[u8; 4]| {
             let count = number(128)?.min(100) as usize;
-            let entry =
-                (0..count).map(|idx| 132 + 12 * idx).find(|&at| profile.get(at..at + 4) == Some(name))?;
+            let entry = (0..count)
+                .map(|idx| 132 + 12 * idx)
+                .find(|&at| profile.get(at..at + 4) == Some(name))?;
             Some(number(entry + 4)? as usize)
         };
         let curve = |name: &[u8; 4]| {
@@ -116,8 +120,10 @@ impl Encoding {
                     0 => Some(Curve::Gamma(1.0)),
                     1 => Some(Curve::Gamma(f64::from(number(at + 12)? >> 16) / 256.0)),
                     count => {
-                        let rows = profile.get(at + 12..at + 12 + 2 * count.min(1 << 16))?.chunks_exact(2);
-                        let row = |row: &[u8]| f64::from(u16::from_be_bytes([row[0], row[1]])) / 65535.0;
+                        let rows =
+                            profile.get(at + 12..at + 12 + 2 * count.min(1 << 16))?.chunks_exact(2);
+                        let row =
+                            |row: &[u8]| f64::from(u16::from_be_bytes([row[0], row[1]])) / 65535.0;
                         Some(Curve::Table(rows.map(row).collect()))
                     }
                 },
@@ -153,7 +159,8 @@ impl Encoding {
         let (Some(red), Some(green), Some(blue)) = (red, green, blue) else {
             return Err("has tables in place of curves and primaries");
         };
-        let curves = [curve(b"rTRC").ok_or(BAD)?, curve(b"gTRC").ok_or(BAD)?, curve(b"bTRC").ok_or(BAD)?];
+        let curves =
+            [curve(b"rTRC").ok_or(BAD)?, curve(b"gTRC").ok_or(BAD)?, curve(b"bTRC").ok_or(BAD)?];
         // Profiles relate colours to D50, sRGB's own as well.
         let matrix = XYZ_D50_FROM_SRGB.inverse() * DMat3::from_cols(red, green, blue);
         if matrix.is_finite() { Ok(Self::new(curves, matrix)) } else { Err(BAD) }
@@ -172,8 +179,11 @@ impl Encoding {
                 };
                 let [reds, greens, blues] = [0, 1, 2].map(|idx| table(&self.curves[idx]));
                 let light = |&[red, green, blue, alpha]: &[u8; 4]| {
-                    let light =
-                        [reds[usize::from(red)], greens[usize::from(green)], blues[usize::from(blue)]];
+                    let light = [
+                        reds[usize::from(red)],
+                        greens[usize::from(green)],
+                        blues[usize::from(blue)],
+                    ];
                     srgb(light, f32::from(alpha) / 255.0)
                 };
                 pixels.iter().map(light).collect()
@@ -200,17 +210,20 @@ pub(crate) fn levels(decode: impl Fn(f64) -> f64) -> Vec<f32> {
 }
 
 /// X, Y and Z as the primaries of a picture, with any white.
-pub(crate) const XYZ_CHROMATICITIES: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0; 2]];
+pub(crate) const XYZ_CHROMATICITIES: [[f64; 2]; 4] =
+    [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0; 2]];
 
 /// The exponent that resembles the curve of sRGB.
 const SRGB_GAMMA: f64 = 2.2;
 
 /// X, Y, Z of the primaries of sRGB, adapted to D50 as in its ICC profile.
 const XYZ_D50_FROM_SRGB: DMat3 = DMat3::from_cols_array(&[
-    0.4360747, 0.2225045, 0.0139322, 0.3850649, 0.7168786, 0.0971045, 0.1430804, 0.0606169, 0.7141733,
+    0.4360747, 0.2225045, 0.0139322, 0.3850649, 0.7168786, 0.0971045, 0.1430804, 0.0606169,
+    0.7141733,
 ]);
 
 fn srgb_from_xyz() -> DMat3 {
-    let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| DVec3::from(xyz_to_linear_srgb(axis.to_array())));
+    let columns =
+        [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| DVec3::from(xyz_to_linear_srgb(axis.to_array())));
     DMat3::from_cols(columns[0], columns[1], columns[2])
 }

@@ -1,6 +1,8 @@
 //! OpenEXR, written with the `exr` crate.
 
-use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, write::WritableImage};
+use exr::image::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, write::WritableImage,
+};
 use exr::math::Vec2;
 use exr::meta::attribute::{Chromaticities, Text};
 use exr::meta::header::LayerAttributes;
@@ -22,7 +24,8 @@ pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     };
     let size = (frame.width() as usize, frame.height() as usize);
     let channels = AnyChannels::sort(channels(frame).into());
-    let mut image = Image::from_layer(Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels));
+    let mut image =
+        Image::from_layer(Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels));
     image.attributes.chromaticities = Some(Chromaticities {
         red: Vec2(0.64, 0.33),
         green: Vec2(0.30, 0.60),
@@ -41,15 +44,22 @@ fn single(matrix: [f64; 16]) -> [f32; 16] {
 }
 
 fn channels(frame: &LinearFrame) -> Vec<AnyChannel<FlatSamples>> {
-    let light = |channel: usize| frame.pixels().iter().map(|&pixel| frame.light_of(pixel)[channel]).collect();
-    let mut channels: Vec<_> =
-        ["R", "G", "B"].into_iter().zip(0..3).map(|(name, channel)| float(name, light(channel))).collect();
+    let light = |channel: usize| {
+        frame.pixels().iter().map(|&pixel| frame.light_of(pixel)[channel]).collect()
+    };
+    let mut channels: Vec<_> = ["R", "G", "B"]
+        .into_iter()
+        .zip(0..3)
+        .map(|(name, channel)| float(name, light(channel)))
+        .collect();
     if !frame.is_opaque() {
         channels.push(float("A", frame.pixels().iter().map(|pixel| pixel[3]).collect()));
     }
     channels.extend(frame.planes().iter().map(|plane| match &plane.samples {
         Samples::Float(numbers) => float(&plane.name, numbers.clone()),
-        Samples::Whole(numbers) => AnyChannel::new(latin(&plane.name), FlatSamples::U32(numbers.clone())),
+        Samples::Whole(numbers) => {
+            AnyChannel::new(latin(&plane.name), FlatSamples::U32(numbers.clone()))
+        }
     }));
     channels
 }

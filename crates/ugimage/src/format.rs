@@ -102,7 +102,12 @@ impl Format {
     }
 
     /// Like [`Format::encode`], with the given compression for PNG files.
-    pub fn encode_with(self, frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
+    pub fn encode_with(
+        self,
+        frame: &Frame,
+        metadata: &Metadata,
+        compression: Compression,
+    ) -> Vec<u8> {
         match self {
             Self::Png => png::encode(frame, metadata, compression),
             Self::Eps => postscript::encode(frame, metadata, true),

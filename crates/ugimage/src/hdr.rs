@@ -19,7 +19,9 @@ pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     metadata.comment.lines().for_each(|line| push_line(&mut file, "# ", line));
     file.extend_from_slice(b"PRIMARIES=0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290\n");
     let (width, height) = (frame.width(), frame.height());
-    file.extend_from_slice(format!("FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").as_bytes());
+    file.extend_from_slice(
+        format!("FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").as_bytes(),
+    );
     for row in frame.pixels().chunks(width as usize) {
         let row: Vec<[u8; 4]> = row.iter().map(|&pixel| rgbe(frame.light_of(pixel))).collect();
         if CODED_WIDTHS.contains(&width) {
@@ -68,7 +70,9 @@ fn push_coded(file: &mut Vec<u8>, row: &[[u8; 4]]) {
                 file.extend([128 + run as u8, *first]);
                 rest = &rest[run..];
             } else {
-                let len = (0..rest.len().min(LONGEST)).take_while(|&at| run_len(&rest[at..], 3) < 3).count();
+                let len = (0..rest.len().min(LONGEST))
+                    .take_while(|&at| run_len(&rest[at..], 3) < 3)
+                    .count();
                 file.push(len as u8);
                 file.extend_from_slice(&rest[..len]);
                 rest = &rest[len..];

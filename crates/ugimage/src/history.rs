@@ -10,7 +10,9 @@ use crate::read::{MAX_TEXT, latin, metadata, until_zero};
 pub fn read_history(file: &[u8]) -> Option<String> {
     let history = match file {
         [0x89, b'P', b'N', b'G', ..] => metadata(file).comment,
-        [b'P', b'6', b'\n', rest @ ..] => lines_after(rest, "# ").skip(1).collect::<Vec<_>>().join("\n"),
+        [b'P', b'6', b'\n', rest @ ..] => {
+            lines_after(rest, "# ").skip(1).collect::<Vec<_>>().join("\n")
+        }
         [b'#', b'?', ..] => lines_after(after_line(file), "# ").collect::<Vec<_>>().join("\n"),
         [b'%', b'!', ..] => postscript(file),
         [b'%', b'P', b'D', b'F', ..] => pdf(file)?,
@@ -25,7 +27,8 @@ pub fn read_history(file: &[u8]) -> Option<String> {
 /// line that is neither one of them nor begins with a key, `KEY=…`.
 fn lines_after<'f>(header: &'f [u8], mark: &'static str) -> impl Iterator<Item = String> + 'f {
     let lines = header.split(|&byte| byte == b'\n').map(String::from_utf8_lossy);
-    let is_header = move |line: &std::borrow::Cow<'_, str>| line.starts_with(mark) || line.contains('=');
+    let is_header =
+        move |line: &std::borrow::Cow<'_, str>| line.starts_with(mark) || line.contains('=');
     lines.take_while(is_header).filter_map(move |line| line.strip_prefix(mark).map(str::to_owned))
 }
 
@@ -91,7 +94,9 @@ fn literal(text: &[u8]) -> Option<Vec<u8>> {
         let n_digits = digits.clone().count();
         at += n_digits.max(1);
         bytes.push(match escaped {
-            _ if n_digits > 0 => digits.fold(0, |code: u8, digit| code.wrapping_mul(8) | (digit - b'0')),
+            _ if n_digits > 0 => {
+                digits.fold(0, |code: u8, digit| code.wrapping_mul(8) | (digit - b'0'))
+            }
             b'n' => b'\n',
             b'r' => b'\r',
             b't' => b'\t',

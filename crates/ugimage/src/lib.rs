@@ -70,6 +70,6 @@ pub use read_exr::{SpectralPicture, read_spectrum};
 pub use read_light::{ForeignKind, ReadPicture, check_picture, foreign_kind, read_picture};
 pub use spelled_color::spelled_color;
 pub use ugframe::{
-    Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET, Samples,
-    Tone, auto_exposure, display_pixel,
+    Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET,
+    Samples, Tone, auto_exposure, display_pixel,
 };

@@ -41,7 +41,8 @@ pub(crate) fn upright<P: Copy>(
         7 => (last_column - row, last_row - column),
         _ => (last_column - row, column),
     };
-    let rows = (0..size[1] as usize).flat_map(|row| (0..size[0] as usize).map(move |column| (column, row)));
+    let rows = (0..size[1] as usize)
+        .flat_map(|row| (0..size[0] as usize).map(move |column| (column, row)));
     let pixel = |(column, row)| {
         let (column, row) = place(column, row);
         pixels[row * width as usize + column]

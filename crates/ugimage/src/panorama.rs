@@ -64,7 +64,8 @@ pub(crate) fn part_of_xmp(text: &str, size: [u32; 2]) -> Option<[f64; 4]> {
         number("CroppedAreaImageHeightPixels").unwrap_or(size[1].into()),
     ];
     let part = [left / width, (left + across) / width, top / height, (top + down) / height];
-    let is_part = part.iter().all(|edge| (0.0..=1.0 + 1e-9).contains(edge)) && part != [0.0, 1.0, 0.0, 1.0];
+    let is_part =
+        part.iter().all(|edge| (0.0..=1.0 + 1e-9).contains(edge)) && part != [0.0, 1.0, 0.0, 1.0];
     is_part.then_some(part)
 }
 

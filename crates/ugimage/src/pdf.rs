@@ -50,7 +50,14 @@ enum Channels {
     Grey,
 }
 
-fn image(pdf: &mut Pdf, id: Ref, size: [u32; 2], channels: Channels, bytes: &[u8], is_masked: bool) {
+fn image(
+    pdf: &mut Pdf,
+    id: Ref,
+    size: [u32; 2],
+    channels: Channels,
+    bytes: &[u8],
+    is_masked: bool,
+) {
     let data = deflate(bytes);
     let mut image = pdf.image_xobject(id, &data);
     image.filter(Filter::FlateDecode);

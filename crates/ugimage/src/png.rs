@@ -2,7 +2,9 @@
 
 use std::io::Write;
 
-use png::{BitDepth, ColorType, Encoder, EncodingError, PixelDimensions, SrgbRenderingIntent, Unit};
+use png::{
+    BitDepth, ColorType, Encoder, EncodingError, PixelDimensions, SrgbRenderingIntent, Unit,
+};
 
 use ugphysics::srgb_encode;
 
@@ -63,7 +65,8 @@ pub fn encode_16(frame: &LinearFrame, metadata: &Metadata, compression: Compress
         for (bytes, &pixel) in bytes.chunks_exact_mut(2 * channels).zip(row) {
             if pixel != last.0 {
                 let [r, g, b, part] = pixel;
-                last = (pixel, [level(r), level(g), level(b), whole(f64::from(part)).to_be_bytes()]);
+                last =
+                    (pixel, [level(r), level(g), level(b), whole(f64::from(part)).to_be_bytes()]);
             }
             bytes.copy_from_slice(last.1[..channels].as_flattened());
         }
@@ -138,7 +141,11 @@ impl<'a> Image<'a> {
         if let Some(per_inch) = self.metadata.per_inch {
             let per_metre = (per_inch / 0.0254).round() as u32;
             let unit = Unit::Meter;
-            encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit }));
+            encoder.set_pixel_dims(Some(PixelDimensions {
+                xppu: per_metre,
+                yppu: per_metre,
+                unit,
+            }));
         }
         add_text(&mut encoder, "Software", &self.metadata.software)?;
         add_text(&mut encoder, "Comment", &self.metadata.comment)?;
@@ -149,7 +156,8 @@ impl<'a> Image<'a> {
         if is_stored {
             // The stream copies bytes slowly.
             let mut bytes = vec![0; self.stride() * self.size[1] as usize];
-            rows.zip(bytes.chunks_exact_mut(self.stride())).for_each(|(row, bytes)| fill(row, bytes));
+            rows.zip(bytes.chunks_exact_mut(self.stride()))
+                .for_each(|(row, bytes)| fill(row, bytes));
             writer.write_image_data(&bytes)?;
         } else {
             let mut stream = writer.stream_writer_with_size(CHUNK)?;
@@ -174,7 +182,11 @@ impl<'a> Image<'a> {
 
 /// Adds a text chunk: `tEXt`, which every PNG reader supports, if the text is Latin-1, otherwise
 /// `iTXt`.
-fn add_text(encoder: &mut Encoder<'_, &mut Vec<u8>>, key: &str, text: &str) -> Result<(), EncodingError> {
+fn add_text(
+    encoder: &mut Encoder<'_, &mut Vec<u8>>,
+    key: &str,
+    text: &str,
+) -> Result<(), EncodingError> {
     if text.is_empty() {
         return Ok(());
     }

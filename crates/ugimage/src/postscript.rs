@@ -20,8 +20,9 @@ pub fn wrap(
     drawing: &[u8],
     is_encapsulated: bool,
 ) -> Vec<u8> {
-    let setup =
-        format!("%%BeginSetup\n<< /PageSize [{width} {height}] >> setpagedevice\n%%EndSetup\n%%Page: 1 1\n");
+    let setup = format!(
+        "%%BeginSetup\n<< /PageSize [{width} {height}] >> setpagedevice\n%%EndSetup\n%%Page: 1 1\n"
+    );
     let [kind, pages, setup, trailer] = match is_encapsulated {
         true => [" EPSF-3.0", "", "", ""],
         false => ["", "%%Pages: 1\n", &setup, "%%Trailer\n"],
@@ -65,7 +66,9 @@ fn history_comments(metadata: &Metadata) -> String {
 fn history_comment(line: &str) -> String {
     let characters: Vec<char> = line.chars().map(printed).collect();
     let lines = characters.chunks(MAX_COMMENT).enumerate();
-    lines.map(|(idx, part)| format!("%{}{}\n", [' ', '+'][idx.min(1)], String::from_iter(part))).collect()
+    lines
+        .map(|(idx, part)| format!("%{}{}\n", [' ', '+'][idx.min(1)], String::from_iter(part)))
+        .collect()
 }
 
 fn printed(c: char) -> char {
@@ -125,7 +128,8 @@ pub fn over_white(frame: &Frame) -> Vec<[u8; 3]> {
 /// n < 128, or one byte to be repeated 257 − n times if n > 128; n = 128 ends the data.
 fn run_length(bytes: &[u8], mut put: impl FnMut(u8)) {
     const LONGEST: usize = 128;
-    let run_at = |at: usize| bytes[at..].iter().take(LONGEST).take_while(|&&byte| byte == bytes[at]).count();
+    let run_at =
+        |at: usize| bytes[at..].iter().take(LONGEST).take_while(|&&byte| byte == bytes[at]).count();
     let mut at = 0;
     while at < bytes.len() {
         let run = run_at(at);

@@ -7,8 +7,10 @@ use crate::{Frame, Metadata};
 /// metadata in comments.
 pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     let mut file = b"P6\n".to_vec();
-    for line in
-        [&metadata.software[..]].into_iter().chain(metadata.comment.lines()).filter(|line| !line.is_empty())
+    for line in [&metadata.software[..]]
+        .into_iter()
+        .chain(metadata.comment.lines())
+        .filter(|line| !line.is_empty())
     {
         let line: String = line.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
         file.extend_from_slice(format!("# {line}\n").as_bytes());

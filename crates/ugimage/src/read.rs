@@ -34,12 +34,19 @@ impl Default for PictureLimits {
 
 impl PictureLimits {
     /// Refuses pictures with too many pixels, or too many bytes if each has `n_bytes`.
-    pub(crate) fn check(&self, [width, height]: [usize; 2], n_bytes: u64) -> Result<[u32; 2], ReadError> {
+    pub(crate) fn check(
+        &self,
+        [width, height]: [usize; 2],
+        n_bytes: u64,
+    ) -> Result<[u32; 2], ReadError> {
         let n_pixels = (width as u64).saturating_mul(height as u64);
         let most = self.pixels.min(MAX_PIXELS);
-        let (Ok(columns), Ok(rows), true) = (u32::try_from(width), u32::try_from(height), n_pixels <= most)
+        let (Ok(columns), Ok(rows), true) =
+            (u32::try_from(width), u32::try_from(height), n_pixels <= most)
         else {
-            return Err(ReadError::new(&format!("{width} x {height} pixels exceed the limit of {most}")));
+            return Err(ReadError::new(&format!(
+                "{width} x {height} pixels exceed the limit of {most}"
+            )));
         };
         let n_bytes = n_bytes * n_pixels;
         if n_bytes > self.bytes {
@@ -103,8 +110,11 @@ pub fn read_png(file: &[u8], limits: &PictureLimits) -> Result<(Frame, Metadata)
         is_opaque = matches!(n_channels, 1 | 3);
         match n_channels {
             1 => pixels.extend(row.iter().map(|&grey| [grey, grey, grey, 255])),
-            2 => pixels.extend(row.as_chunks().0.iter().map(|&[grey, alpha]| [grey, grey, grey, alpha])),
-            3 => pixels.extend(row.as_chunks().0.iter().map(|&[red, green, blue]| [red, green, blue, 255])),
+            2 => pixels
+                .extend(row.as_chunks().0.iter().map(|&[grey, alpha]| [grey, grey, grey, alpha])),
+            3 => pixels.extend(
+                row.as_chunks().0.iter().map(|&[red, green, blue]| [red, green, blue, 255]),
+            ),
             _ => pixels.extend(row.as_chunks::<4>().0),
         }
     })?;
@@ -133,7 +143,8 @@ pub(crate) fn read_png_light(
     decoded(decoder, file.len(), limits, |n_channels, row, pixels| {
         pixels.extend(row.chunks_exact(2 * n_channels).map(|bytes| {
             let level = |idx: usize| u16::from_be_bytes([bytes[2 * idx], bytes[2 * idx + 1]]);
-            let light = |idx: usize| curves[if n_channels < 3 { 0 } else { idx }][usize::from(level(idx))];
+            let light =
+                |idx: usize| curves[if n_channels < 3 { 0 } else { idx }][usize::from(level(idx))];
             let alpha = |idx: usize| f32::from(level(idx)) / 65535.0;
             match n_channels {
                 1 => [light(0), light(0), light(0), 1.0],
@@ -316,7 +327,8 @@ pub(crate) fn declared(file: &[u8], notes: &mut Vec<String>) -> Declared {
         rest = after;
         chunks.push((kind, data));
     }
-    let find = |name: &[u8; 4]| chunks.iter().find(|(kind, _)| *kind == name).map(|(_, data)| *data);
+    let find =
+        |name: &[u8; 4]| chunks.iter().find(|(kind, _)| *kind == name).map(|(_, data)| *data);
     let number = |data: &[u8], idx: usize| {
         let four = data.get(4 * idx..4 * idx + 4)?.try_into().ok()?;
         Some(f64::from(u32::from_be_bytes(four)) / 1e5)
@@ -336,12 +348,16 @@ pub(crate) fn declared(file: &[u8], notes: &mut Vec<String>) -> Declared {
         (gamma.is_some() || chromaticities.is_some())
             .then(|| {
                 let gamma = gamma.map_or(2.2, |gamma| 1.0 / gamma);
-                Encoding::from_chromaticities(chromaticities.unwrap_or(SRGB_CHROMATICITIES), Some(gamma))
+                Encoding::from_chromaticities(
+                    chromaticities.unwrap_or(SRGB_CHROMATICITIES),
+                    Some(gamma),
+                )
             })
             .flatten()
     };
     let xmp = chunks.iter().find_map(|(kind, data)| {
-        let (keyword, text) = until_zero(data).filter(|_| matches!(*kind, b"tEXt" | b"zTXt" | b"iTXt"))?;
+        let (keyword, text) =
+            until_zero(data).filter(|_| matches!(*kind, b"tEXt" | b"zTXt" | b"iTXt"))?;
         if keyword == XMP.as_bytes() { text_of(kind, text) } else { None }
     });
     Declared { encoding, orientation: find(b"eXIf").map_or(1, orientation::of_exif), xmp }
@@ -385,7 +401,8 @@ fn encoding_of_code_points(codes: [u8; 2], notes: &mut Vec<String>) -> Option<En
 /// The encoding of an ICC profile, or a note that says why it is not used.
 pub(crate) fn encoding_of_profile(profile: &[u8], notes: &mut Vec<String>) -> Option<Encoding> {
     Encoding::from_icc(profile).unwrap_or_else(|reason| {
-        notes.push(format!("the colour profile of the picture {reason}: its colours count as sRGB"));
+        notes
+            .push(format!("the colour profile of the picture {reason}: its colours count as sRGB"));
         None
     })
 }

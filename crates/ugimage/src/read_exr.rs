@@ -7,10 +7,14 @@ use exr::compression::Compression;
 use exr::math::Vec2;
 use exr::meta::attribute::ChannelDescription;
 use exr::meta::header::Header;
-use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader};
+use exr::prelude::{
+    ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader,
+};
 
 use crate::encoding::Encoding;
-use crate::read::{Declared, MOST_INFLATED, PictureLimits, ReadError, check_packed, reserved, unreadable};
+use crate::read::{
+    Declared, MOST_INFLATED, PictureLimits, ReadError, check_packed, reserved, unreadable,
+};
 
 /// Bytes of a pixel of light.
 const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
@@ -70,11 +74,16 @@ pub(crate) fn read(
         let row = row + origin[1] - corner[1];
         for column in 0..i64::from(size[0]) {
             let column = column + origin[0] - corner[0];
-            let is_in =
-                (0..i64::from(data_size[0])).contains(&column) && (0..i64::from(data_size[1])).contains(&row);
+            let is_in = (0..i64::from(data_size[0])).contains(&column)
+                && (0..i64::from(data_size[1])).contains(&row);
             let idx = if is_in { row * i64::from(data_size[0]) + column } else { -1 };
-            shown
-                .push(usize::try_from(idx).ok().and_then(|idx| pixels.get(idx)).copied().unwrap_or_default());
+            shown.push(
+                usize::try_from(idx)
+                    .ok()
+                    .and_then(|idx| pixels.get(idx))
+                    .copied()
+                    .unwrap_or_default(),
+            );
         }
     }
     Ok((size, shown))
@@ -113,9 +122,15 @@ pub fn read_spectrum(file: &[u8], limits: &PictureLimits) -> Result<SpectralPict
     let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), true);
     let headers = headers.map_err(|error| broken(&error))?.headers;
     let names = |header: &Header| {
-        header.channels.list.iter().filter(|it| wavelength_nm(&it.name.to_string()).is_some()).count()
+        header
+            .channels
+            .list
+            .iter()
+            .filter(|it| wavelength_nm(&it.name.to_string()).is_some())
+            .count()
     };
-    let Some(header) = headers.first().filter(|header| !header.deep && names(header) >= LEAST) else {
+    let Some(header) = headers.first().filter(|header| !header.deep && names(header) >= LEAST)
+    else {
         return Ok(SpectralPicture::default());
     };
     check_layer(header, file.len(), limits)?;
@@ -123,7 +138,8 @@ pub fn read_spectrum(file: &[u8], limits: &PictureLimits) -> Result<SpectralPict
     let n_bytes = (size_of::<f32>() * header.channels.list.len()) as u64;
     let size = limits.check([width, height], n_bytes)?;
     let display = header.shared_attributes.display_window;
-    if display.size != header.layer_size || display.position != header.own_attributes.layer_position {
+    if display.size != header.layer_size || display.position != header.own_attributes.layer_position
+    {
         return Err(broken(&"a picture of wavelengths shows a part of its window"));
     }
     drop(reserved::<u8>(n_bytes as usize * width * height)?);
@@ -172,10 +188,13 @@ impl Channels {
         let mut prefixes: Vec<&str> =
             prefixes.filter(|prefix| colors(prefix).iter().all(|name| has(name))).collect();
         // The combined picture before its parts.
-        prefixes.sort_by_key(|prefix| (!prefix.is_empty(), !prefix.contains("Combined"), prefix.len()));
+        prefixes
+            .sort_by_key(|prefix| (!prefix.is_empty(), !prefix.contains("Combined"), prefix.len()));
         let prefix = prefixes.first()?;
         let note = (!prefix.is_empty()).then(|| {
-            format!("of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read")
+            format!(
+                "of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read"
+            )
         });
         Some(Self { names: colors(prefix), is_grey: false, alpha: format!("{prefix}A"), note })
     }
@@ -209,7 +228,10 @@ impl Channels {
             .optional(blue, 0.0_f32)
             .optional(self.alpha.as_str(), 1.0_f32)
             .collect_pixels(
-                |resolution, _| PixelVec { resolution, pixels: vec![[0.0_f32; 4]; resolution.area()] },
+                |resolution, _| PixelVec {
+                    resolution,
+                    pixels: vec![[0.0_f32; 4]; resolution.area()],
+                },
                 move |image, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
                     let idx = position.flat_index_for_size(image.resolution);
                     let [green, blue] = if is_grey { [red; 2] } else { [green, blue] };
@@ -230,12 +252,14 @@ impl Channels {
 fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result<(), ReadError> {
     /// Bytes in the file for each block of pixels: its place, its row, its size.
     const N_BYTES_OF_BLOCK: u64 = 16;
-    let size = limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
+    let size =
+        limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
     let n_pixels = size[0] as usize * size[1] as usize;
     let n_bytes = |channel: &ChannelDescription| {
         // A channel may have one sample for several pixels. The decoder refuses one for none.
         let n_along = |side: u32, sampling: usize| u64::from(side) / (sampling as u64).max(1);
-        let n_samples = n_along(size[0], channel.sampling.x()) * n_along(size[1], channel.sampling.y());
+        let n_samples =
+            n_along(size[0], channel.sampling.x()) * n_along(size[1], channel.sampling.y());
         channel.sample_type.bytes_per_sample() as u64 * n_samples
     };
     let n_stored = header.channels.list.iter().map(n_bytes).fold(0, u64::saturating_add);

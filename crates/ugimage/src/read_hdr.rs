@@ -71,7 +71,8 @@ fn header(rest: &mut &[u8], declared: &mut Declared) -> Result<([usize; 2], [f32
             break;
         }
         let (name, value) = line.split_once('=').unwrap_or_default();
-        let numbers: Vec<f64> = value.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        let numbers: Vec<f64> =
+            value.split_whitespace().map_while(|word| word.parse().ok()).collect();
         let mut multiply =
             |by: [f64; 3]| factors.iter_mut().zip(by).for_each(|(part, by)| *part *= by as f32);
         match (name, &numbers[..]) {

@@ -9,8 +9,8 @@ use crate::orientation::{self, upright};
 use crate::panorama::part_of_xmp;
 use crate::pixels::Pixels;
 use crate::read::{
-    self, Declared, PictureLimits, ReadError, check_packed, encoding_of_profile, is_png_deep, read_png,
-    read_png_light, reserved, unreadable,
+    self, Declared, PictureLimits, ReadError, check_packed, encoding_of_profile, is_png_deep,
+    read_png, read_png_light, reserved, unreadable,
 };
 use crate::{read_exr, read_hdr, read_pfm};
 
@@ -57,7 +57,9 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
         }
         [0xff, 0xd8, 0xff, ..] => jpeg(file, limits, &mut declared, &mut notes)?,
         [b'#', b'?', ..] => read_hdr::read(file, limits, &mut declared).map(light)?,
-        [0x76, 0x2f, 0x31, 0x01, ..] => read_exr::read(file, limits, &mut declared, &mut notes).map(light)?,
+        [0x76, 0x2f, 0x31, 0x01, ..] => {
+            read_exr::read(file, limits, &mut declared, &mut notes).map(light)?
+        }
         [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => read_pfm::read(file, limits).map(light)?,
         _ => return Err(not_a_picture(file)),
     };
@@ -69,8 +71,12 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
         }
     };
     let (size, pixels) = match pixels {
-        Pixels::Srgb(pixels) => upright(declared.orientation, [width, height], pixels, Pixels::Srgb),
-        Pixels::Light(pixels) => upright(declared.orientation, [width, height], pixels, Pixels::Light),
+        Pixels::Srgb(pixels) => {
+            upright(declared.orientation, [width, height], pixels, Pixels::Srgb)
+        }
+        Pixels::Light(pixels) => {
+            upright(declared.orientation, [width, height], pixels, Pixels::Light)
+        }
     };
     let part = declared.xmp.as_deref().and_then(|xmp| part_of_xmp(xmp, size));
     Ok(ReadPicture { size, pixels, part, notes })
@@ -90,9 +96,9 @@ pub fn check_picture(file: &[u8], limits: &PictureLimits) -> Result<(), ReadErro
             let (width, height) = decoder.dimensions().unwrap_or_default();
             limits.check([width, height], 1).map(|_| ())
         }
-        [b'#', b'?', ..] | [0x76, 0x2f, 0x31, 0x01, ..] | [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => {
-            Ok(())
-        }
+        [b'#', b'?', ..]
+        | [0x76, 0x2f, 0x31, 0x01, ..]
+        | [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => Ok(()),
         _ => Err(not_a_picture(file)),
     }
 }
@@ -167,7 +173,8 @@ fn packed(file: &[u8]) -> Option<Packed> {
     loop {
         // The next marker: in compressed data FF is followed by 0 or by a restart marker.
         let mut pairs = file.get(at..)?.windows(2);
-        let skip = pairs.position(|pair| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff))?;
+        let skip =
+            pairs.position(|pair| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff))?;
         at += skip + 2;
         n_bytes += skip;
         match file[at - 1] {
@@ -224,10 +231,12 @@ const KINDS: [(usize, &[u8], [&str; 2]); 17] = [
 /// What a file is by its first bytes; `None` if it may be one that is read.
 pub fn foreign_kind(file: &[u8]) -> Option<ForeignKind> {
     let start = file.trim_ascii_start();
-    let begins = |word: &&[u8]| start.get(..word.len()).is_some_and(|it| it.eq_ignore_ascii_case(word));
+    let begins =
+        |word: &&[u8]| start.get(..word.len()).is_some_and(|it| it.eq_ignore_ascii_case(word));
     let page = [&b"<!doctype html"[..], b"<html"].iter().any(begins).then_some(WEB_PAGE);
-    let is_kind =
-        |(at, bytes, _): &&(usize, &[u8], _)| file.get(*at..).is_some_and(|it| it.starts_with(bytes));
+    let is_kind = |(at, bytes, _): &&(usize, &[u8], _)| {
+        file.get(*at..).is_some_and(|it| it.starts_with(bytes))
+    };
     let [what, remedy] = page.or_else(|| KINDS.iter().find(is_kind).map(|(.., words)| *words))?;
     Some(ForeignKind { what, remedy, is_picture: remedy == CONVERT })
 }

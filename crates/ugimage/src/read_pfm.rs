@@ -9,7 +9,10 @@ const N_BYTES_OF_SAMPLE: usize = 4;
 ///
 /// # Errors
 /// [`ReadError`] if the file is truncated or corrupt, or exceeds a limit.
-pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+pub(crate) fn read(
+    file: &[u8],
+    limits: &PictureLimits,
+) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     let mut rest = file;
     let n_channels = match word(&mut rest) {
         Some("PF") => 3,
@@ -36,14 +39,17 @@ pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec
     let n_more = rest.len().saturating_sub(n_bytes);
     let has_ended = file[..file.len() - rest.len()].ends_with(b"\n");
     let n_blank = rest.iter().take(n_more).take_while(|byte| byte.is_ascii_whitespace()).count();
-    if let Some(end) = rest[..n_blank].iter().position(|byte| *byte == b'\n').filter(|_| !has_ended) {
+    if let Some(end) = rest[..n_blank].iter().position(|byte| *byte == b'\n').filter(|_| !has_ended)
+    {
         rest = &rest[end + 1..];
     }
     let (data, after) = rest
         .split_at_checked(n_bytes)
         .ok_or_else(|| broken("the file is truncated, or its header is wrong"))?;
     if !after.trim_ascii().is_empty() {
-        return Err(broken("it goes on after its pixels: its size or its number of channels is wrong"));
+        return Err(broken(
+            "it goes on after its pixels: its size or its number of channels is wrong",
+        ));
     }
     let mut pixels = reserved(width * height)?;
     for row in data.chunks_exact(n_bytes_of_row.max(1)).rev() {

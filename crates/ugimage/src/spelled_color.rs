@@ -34,10 +34,17 @@ const NAMES: [(&str, [u8; 3]); 10] = [
 ///
 /// # Errors
 /// The words are no colour: why.
-pub fn spelled_color(words: &[String], number: impl Fn(&str) -> Result<f64, String>) -> Result<Hsv, String> {
+pub fn spelled_color(
+    words: &[String],
+    number: impl Fn(&str) -> Result<f64, String>,
+) -> Result<Hsv, String> {
     let named = |word: &str| {
         let is_name = |(name, _): &&(&str, [u8; 3])| word.eq_ignore_ascii_case(name);
-        NAMES.iter().find(is_name).map(|(_, rgb)| *rgb).or_else(|| of_digits(word.strip_prefix('#')?))
+        NAMES
+            .iter()
+            .find(is_name)
+            .map(|(_, rgb)| *rgb)
+            .or_else(|| of_digits(word.strip_prefix('#')?))
     };
     if let [word] = words
         && let Some(rgb) = named(word)
@@ -45,7 +52,8 @@ pub fn spelled_color(words: &[String], number: impl Fn(&str) -> Result<f64, Stri
         return Ok(Hsv::from_rgb(rgb.map(|part| f64::from(part) / 255.0)));
     }
     let part = |word: &String| {
-        let names = "write lightness, hue in degrees and saturation, a name such as white, or #rrggbb";
+        let names =
+            "write lightness, hue in degrees and saturation, a name such as white, or #rrggbb";
         number(word).map_err(|error| format!("`{word}` is {error}; {names}"))
     };
     let numbers = words.iter().map(part).collect::<Result<Vec<f64>, _>>()?;
@@ -60,7 +68,8 @@ pub fn spelled_color(words: &[String], number: impl Fn(&str) -> Result<f64, Stri
 
 /// Red, green and blue of three or six hexadecimal digits.
 fn of_digits(digits: &str) -> Option<[u8; 3]> {
-    let digit = |idx: usize| digits.as_bytes().get(idx).and_then(|&digit| char::from(digit).to_digit(16));
+    let digit =
+        |idx: usize| digits.as_bytes().get(idx).and_then(|&digit| char::from(digit).to_digit(16));
     let pair = |high: usize, low: usize| u8::try_from(16 * digit(high)? + digit(low)?).ok();
     match digits.len() {
         3 => Some([pair(0, 0)?, pair(1, 1)?, pair(2, 2)?]),

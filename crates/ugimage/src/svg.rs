@@ -22,9 +22,13 @@ pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
 /// becomes its description.
 pub fn document([width, height]: [u32; 2], metadata: &Metadata, drawing: &str) -> Vec<u8> {
     let words = [metadata.software.as_str(), metadata.comment.as_str()];
-    let words: Vec<String> = words.into_iter().filter(|text| !text.is_empty()).map(escaped).collect();
-    let description =
-        if words.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", words.join("\n")) };
+    let words: Vec<String> =
+        words.into_iter().filter(|text| !text.is_empty()).map(escaped).collect();
+    let description = if words.is_empty() {
+        String::new()
+    } else {
+        format!("<desc>{}</desc>\n", words.join("\n"))
+    };
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
          viewBox=\"0 0 {width} {height}\">\n{description}{drawing}</svg>\n"

@@ -61,8 +61,7 @@ pub fn parts(most: usize) -> Vec<&'static [u8]> {
 /// The tag and the place of each table.
 fn tables() -> impl Iterator<Item = (&'static [u8], usize)> {
     let n_tables = usize::from(u16::from_be_bytes([FILE[4], FILE[5]]));
-    FILE[12..]
-        .chunks_exact(16)
-        .take(n_tables)
-        .map(|entry| (&entry[..4], u32::from_be_bytes([entry[8], entry[9], entry[10], entry[11]]) as usize))
+    FILE[12..].chunks_exact(16).take(n_tables).map(|entry| {
+        (&entry[..4], u32::from_be_bytes([entry[8], entry[9], entry[10], entry[11]]) as usize)
+    })
 }

@@ -9,8 +9,8 @@ use crate::color::{shown_light, texel_hsv};
 use crate::hue_table::HueTable;
 use crate::spectra::{Spectra, SpectralRows};
 use crate::{
-    ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Mixing, Palette,
-    SpectralFilter, SurfaceAttributes, Swatch,
+    ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Mixing,
+    Palette, SpectralFilter, SurfaceAttributes, Swatch,
 };
 
 /// A colour at rest at a point of a surface.
@@ -130,7 +130,11 @@ impl Appearance {
             let swatch = Swatch { translucency, ..self.palette.white() };
             return SurfaceColor { swatch, rows: spectra.texel_rows(light) };
         }
-        let form = if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
+        let form = if self.keeps_light() || !is_moving {
+            ColorForm::Display(light)
+        } else {
+            ColorForm::Hue
+        };
         let swatch = Swatch { form, translucency, ..self.palette.swatch(texel_hsv(light)) };
         SurfaceColor::even(swatch, 0)
     }
@@ -215,7 +219,13 @@ impl Appearance {
             Interpolation::Hue => seen.hue,
             Interpolation::Wavelength => seen.wavelength_nm,
         };
-        Swatch { tint, saturation: seen.saturation, value: seen.value, factor: seen.factor, ..*rest }
+        Swatch {
+            tint,
+            saturation: seen.saturation,
+            value: seen.value,
+            factor: seen.factor,
+            ..*rest
+        }
     }
 
     /// Linear red, green and blue of a surface under `light` and behind `filters`, seen with the
@@ -265,17 +275,30 @@ impl Appearance {
                 let of_lamp = |part: &Irradiance| shift.color_of(&lamps[part.lamp as usize]).x;
                 of_level(parts.iter().map(|part| part.level * of_lamp(part)).sum())
             }
-            (_, Illumination::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
+            (_, Illumination::Lamps(parts, lamps)) => {
+                self.light_of_lamps(rest, doppler, parts, lamps)
+            }
         };
         seen.min(DVec3::splat(self.ceiling))
     }
 
     /// Linear light of a hue under lamps, which may be coloured, and move. Light adds up, as seen,
     /// under a law that names a quantity; otherwise display-encoded colours do.  Eq. (P14)
-    fn light_of_lamps(&self, rest: &Swatch, doppler: f64, parts: &[Irradiance], lamps: &[Lamp]) -> DVec3 {
+    fn light_of_lamps(
+        &self,
+        rest: &Swatch,
+        doppler: f64,
+        parts: &[Irradiance],
+        lamps: &[Lamp],
+    ) -> DVec3 {
         let base = self.hue_color(rest);
-        let seen = |parts: &[Irradiance]| self.hue_shift.seen_lit(base, doppler, parts, lamps).light();
-        if self.hue_shift.law.acts_on_light() { parts.chunks(1).map(seen).sum() } else { seen(parts) }
+        let seen =
+            |parts: &[Irradiance]| self.hue_shift.seen_lit(base, doppler, parts, lamps).light();
+        if self.hue_shift.law.acts_on_light() {
+            parts.chunks(1).map(seen).sum()
+        } else {
+            seen(parts)
+        }
     }
 
     /// The part of linear red, green and blue that filters transmit, whose hues are shifted.
@@ -283,7 +306,8 @@ impl Appearance {
         let part = |filter: &ColorFilter| {
             let base = self.hue_color(&filter.color.swatch);
             let wavelength_nm = self.hue_shift.wavelength_nm(base.wavelength_nm, filter.doppler);
-            let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
+            let hue =
+                if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
             let hsv = Hsv { hue, saturation: base.saturation, value: base.value };
             shown_light(hsv)
         };
@@ -317,8 +341,9 @@ fn spectral_light(
 ) -> DVec3 {
     let of_daylight = match light {
         Illumination::Level(level) => Some(level),
-        Illumination::Lamps(parts, lamps) => (lamps.is_daylight && is_plain(parts))
-            .then(|| parts.iter().map(|part| part.level * lamps[part.lamp as usize].intensity).sum()),
+        Illumination::Lamps(parts, lamps) => (lamps.is_daylight && is_plain(parts)).then(|| {
+            parts.iter().map(|part| part.level * lamps[part.lamp as usize].intensity).sum()
+        }),
     };
     if let (Some(level), []) = (of_daylight, filters) {
         let ln_doppler = libm::log(doppler);

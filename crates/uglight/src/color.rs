@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use glam::DVec3;
 use ugphysics::spectrum::Spectrum;
-use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
+use ugphysics::{
+    Hsv, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb,
+};
 use ugscene::{Color, ColorId, ColorValue, Note, Scene, Tint};
 
 /// How colours mix and are lit, by the way they are written. A mixture is like the greatest of its
@@ -93,14 +95,21 @@ pub struct RestColor {
 
 impl RestColor {
     /// The colour of what has none.
-    pub const WHITE: Self =
-        Self { hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }, form: ColorForm::Hue, translucency: 0.0 };
+    pub const WHITE: Self = Self {
+        hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
+        form: ColorForm::Hue,
+        translucency: 0.0,
+    };
 
     /// The colour of a statement, or white.
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         color.map_or(Self::WHITE, |id| {
             let color = &scene.colors[id.index()];
-            Self { hsv: hsv(scene, color), form: color_form(scene, color), translucency: color.translucency }
+            Self {
+                hsv: hsv(scene, color),
+                form: color_form(scene, color),
+                translucency: color.translucency,
+            }
         })
     }
 
@@ -114,7 +123,9 @@ impl RestColor {
     pub fn value(&self) -> ColorValue {
         let Hsv { hue, saturation, value } = self.hsv;
         match self.form {
-            ColorForm::Hue => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
+            ColorForm::Hue => {
+                ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 }
+            }
             ColorForm::Display(_) if value <= 1.0 => ColorValue::Rgb(self.hsv.to_rgb()),
             ColorForm::Display(light) | ColorForm::Light(light) => {
                 ColorValue::Xyz(linear_srgb_to_xyz(light.to_array()))
@@ -157,7 +168,9 @@ pub fn hsv(scene: &Scene, color: &Color) -> Hsv {
 /// A colour with its linear light multiplied. The transfer function of displays is not a power, so
 /// hue and saturation change a little.
 fn brightened(color: Hsv, factor: f64) -> Hsv {
-    Hsv::from_rgb(color.to_rgb().map(|channel| srgb_encode(brightest(factor * srgb_decode(channel)))))
+    Hsv::from_rgb(
+        color.to_rgb().map(|channel| srgb_encode(brightest(factor * srgb_decode(channel)))),
+    )
 }
 
 /// Light whose sums are finite: brighter light is shown as bright as this.
@@ -272,7 +285,10 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
         ColorValue::Blackbody { kelvin, scale } => (Spectrum::blackbody(kelvin, scale), true),
         ColorValue::Spectrum { reflects, start, end } => {
             let samples = &scene.samples[start as usize..end as usize];
-            (if reflects { Spectrum::reflectance(samples) } else { Spectrum::samples(samples) }, true)
+            (
+                if reflects { Spectrum::reflectance(samples) } else { Spectrum::samples(samples) },
+                true,
+            )
         }
     }
 }
@@ -280,8 +296,9 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
 /// The note on a scene where something is drawn or lit with a black body or spectrum, of which
 /// [`hsv`] uses the colour at rest only.
 pub fn spectra_note(scene: &Scene) -> Option<Note> {
-    let has_spectrum =
-        |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
+    let has_spectrum = |color: &Color| {
+        matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
+    };
     // Most scenes have none, and there is no need to test their vertices.
     if !scene.colors.iter().any(has_spectrum) {
         return None;
@@ -293,10 +310,13 @@ pub fn spectra_note(scene: &Scene) -> Option<Note> {
         corners.iter().any(|corner| scene.vertices[corner.index()].color.is_none())
     };
     let vertices = scene.vertices.iter().filter_map(|vertex| vertex.color);
-    let drawn = scene.drawn().filter(|drawn| needs_color(&drawn.contours)).filter_map(|drawn| drawn.color);
+    let drawn =
+        scene.drawn().filter(|drawn| needs_color(&drawn.contours)).filter_map(|drawn| drawn.color);
     let lights = scene.lights.iter().filter_map(|light| light.color);
     let color = vertices.chain(drawn).chain(lights).find(is_spectrum)?;
-    Some(Note::SpectraAtRest { color: scene.names.get(scene.colors[color.index()].name).to_owned() })
+    Some(Note::SpectraAtRest {
+        color: scene.names.get(scene.colors[color.index()].name).to_owned(),
+    })
 }
 
 /// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them

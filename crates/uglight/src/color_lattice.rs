@@ -58,13 +58,18 @@ pub(crate) fn mixture(light: DVec3) -> [(u32, f64); 4] {
         (at, (part - ratio(at)) / (ratio(at + 1) - ratio(at)))
     };
     let [(second, x), (third, y)] = [cell(1), cell(2)];
-    let corner = |over: usize, behind: usize| largest * N * N + (second + over) * N + third + behind;
-    let (middle, shares) =
-        if x >= y { (corner(1, 0), [1.0 - x, x - y, y]) } else { (corner(0, 1), [1.0 - y, y - x, x]) };
+    let corner =
+        |over: usize, behind: usize| largest * N * N + (second + over) * N + third + behind;
+    let (middle, shares) = if x >= y {
+        (corner(1, 0), [1.0 - x, x - y, y])
+    } else {
+        (corner(0, 1), [1.0 - y, y - x, x])
+    };
     let corners = [corner(0, 0), middle, corner(1, 1)];
     // The first corners have the upper level, the last ones the lower, and one has both, so that
     // the shares of the levels interpolate between them.
-    let low = LEVELS.iter().rposition(|level| *level <= brightest).unwrap_or(0).min(LEVELS.len() - 2);
+    let low =
+        LEVELS.iter().rposition(|level| *level <= brightest).unwrap_or(0).min(LEVELS.len() - 2);
     let ends = [LEVELS[low], LEVELS[low + 1]];
     let part = ((brightest - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0);
     let mut above = if part < 1.0 { part * ends[1] / brightest } else { 1.0 };
@@ -74,7 +79,8 @@ pub(crate) fn mixture(light: DVec3) -> [(u32, f64); 4] {
         above -= high;
         for (upper, part) in [(1, high), (0, share - high)] {
             if part > 0.0 {
-                mixed[n] = (((low + upper) * N_RATIOS + corner) as u32, brightest * part / ends[upper]);
+                mixed[n] =
+                    (((low + upper) * N_RATIOS + corner) as u32, brightest * part / ends[upper]);
                 n += 1;
             }
         }
@@ -96,7 +102,9 @@ mod tests {
             let part = |factor: f64| 1.2 * (f64::from(seed) * factor).fract();
             let light = DVec3::new(part(0.618_034), part(0.414_214), part(0.302_776));
             let parts = mixture(light);
-            assert!(parts.iter().all(|&(row, share)| (row as usize) < N_CORNERS && share >= -1e-15));
+            assert!(
+                parts.iter().all(|&(row, share)| (row as usize) < N_CORNERS && share >= -1e-15)
+            );
             let sum: DVec3 =
                 parts.iter().map(|&(row, share)| share * DVec3::from(corner(row as usize))).sum();
             assert!(sum.distance(light) < 1e-14, "{light} {sum}");

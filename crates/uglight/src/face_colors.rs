@@ -48,7 +48,8 @@ impl Appearance {
         match most.form {
             ColorForm::Display(_) => {
                 let mut all = swatches.clone();
-                let is_mixed = all.any(|swatch| swatch.borrow() != most) || self.palette.is_faded(most);
+                let is_mixed =
+                    all.any(|swatch| swatch.borrow() != most) || self.palette.is_faded(most);
                 if is_mixed { Mixing::Display } else { Mixing::Hue }
             }
             form => form.mixing(),
@@ -76,7 +77,8 @@ impl Appearance {
         if !(self.palette.has_light || self.palette.has_display && self.surface.has_display()) {
             return [!scene.faces.is_empty(), false];
         }
-        let keeps_light = |face: &Face| self.keeps_light() || self.surface.velocity(face.body).is_zero();
+        let keeps_light =
+            |face: &Face| self.keeps_light() || self.surface.velocity(face.body).is_zero();
         let is_light = |face: &&Face| {
             let swatches = scene.face_corners(face).iter().map(|&at| self.surface.swatch(at));
             self.mixing(swatches) != Mixing::Hue && keeps_light(face)
@@ -94,7 +96,12 @@ impl Appearance {
     }
 
     /// The colour at rest at a point of a triangle of a face. `weights`: of the corners.
-    pub fn color_at(&self, colors: &FaceColors, corners: [VertexId; 3], weights: [f64; 3]) -> SurfaceColor {
+    pub fn color_at(
+        &self,
+        colors: &FaceColors,
+        corners: [VertexId; 3],
+        weights: [f64; 3],
+    ) -> SurfaceColor {
         let rows = corners.map(|corner| self.surface.row(corner));
         let swatch = |corner| self.swatch(corner, colors);
         let first = swatch(corners[0]);
@@ -120,7 +127,10 @@ impl Appearance {
         }
         match face.color {
             Some(color) => self.palette.get(color).translucency > 0.0,
-            None => scene.face_corners(face).iter().any(|&at| self.surface.swatch(at).translucency > 0.0),
+            None => scene
+                .face_corners(face)
+                .iter()
+                .any(|&at| self.surface.swatch(at).translucency > 0.0),
         }
     }
 }

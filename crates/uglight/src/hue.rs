@@ -92,7 +92,13 @@ impl HueShift {
     /// of the lamp, its wavelength divided by D_l D, its brightness changed by the brightness law
     /// for both factors, (P14). Then the colours are added: as linear light under a law that names
     /// a quantity, else by [`HueColor::sum`].
-    pub fn seen_lit(self, base: HueColor, doppler: f64, light: &[Irradiance], lamps: &[Lamp]) -> HueColor {
+    pub fn seen_lit(
+        self,
+        base: HueColor,
+        doppler: f64,
+        light: &[Irradiance],
+        lamps: &[Lamp],
+    ) -> HueColor {
         let shift = Self { law: Brightness::None, ..self };
         let parts: Vec<HueColor> = light
             .iter()
@@ -104,7 +110,11 @@ impl HueShift {
             })
             .filter(|seen| seen.value > 0.0 && seen.factor > 0.0)
             .collect();
-        if self.law.acts_on_light() { HueColor::sum_of_light(&parts) } else { HueColor::sum(&parts) }
+        if self.law.acts_on_light() {
+            HueColor::sum_of_light(&parts)
+        } else {
+            HueColor::sum(&parts)
+        }
     }
 
     /// Linear light of a surface with the colour of a display under several lamps, if its motion
@@ -180,7 +190,8 @@ impl HueColor {
         encoded_hsv(linear).into()
     }
 
-    const BLACK: Self = Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0, factor: 1.0 };
+    const BLACK: Self =
+        Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0, factor: 1.0 };
 
     fn hsv(&self) -> Hsv {
         Hsv { hue: self.hue, saturation: self.saturation, value: self.value }
@@ -223,14 +234,17 @@ impl HueColor {
     pub fn sum(parts: &[Self]) -> Self {
         let Some(first) = parts.first() else { return Self::BLACK };
         let all: f64 = parts.iter().map(|part| part.value).sum();
-        let is_alike =
-            |part: &Self| (part.wavelength_nm, part.saturation) == (first.wavelength_nm, first.saturation);
+        let is_alike = |part: &Self| {
+            (part.wavelength_nm, part.saturation) == (first.wavelength_nm, first.saturation)
+        };
         if parts.iter().all(is_alike) {
             return Self { value: all, ..*first };
         }
         let mut sum = [0.0; 3];
         for part in parts {
-            sum.iter_mut().zip(part.attenuated().to_rgb()).for_each(|(sum, channel)| *sum += channel);
+            sum.iter_mut()
+                .zip(part.attenuated().to_rgb())
+                .for_each(|(sum, channel)| *sum += channel);
         }
         let mixed = Hsv::from_rgb(sum);
         if mixed.value <= 0.0 {
@@ -263,7 +277,9 @@ impl HueColor {
     /// The first of the strongest parts, where nothing is visible: its wavelength is kept, since
     /// another shift may bring it into view.
     fn strongest(parts: &[Self], first: &Self, strength: impl Fn(&Self) -> f64) -> Self {
-        parts.iter().fold(*first, |best, part| if strength(part) > strength(&best) { *part } else { best })
+        parts
+            .iter()
+            .fold(*first, |best, part| if strength(part) > strength(&best) { *part } else { best })
     }
 
     /// A mixture that looks like `mixed` after it was attenuated. `limit`: of its value.
@@ -279,7 +295,13 @@ mod tests {
     use super::*;
 
     fn of_wavelength(wavelength_nm: f64, value: f64) -> HueColor {
-        HueColor { hue: wavelength_to_hue(wavelength_nm), wavelength_nm, saturation: 1.0, value, factor: 1.0 }
+        HueColor {
+            hue: wavelength_to_hue(wavelength_nm),
+            wavelength_nm,
+            saturation: 1.0,
+            value,
+            factor: 1.0,
+        }
     }
 
     #[test]
@@ -307,7 +329,8 @@ mod tests {
                 of_wavelength(wavelength, 0.3),
                 of_wavelength(wavelength * (1.0 + 1e-9), 0.2),
             ]);
-            let one = HueColor::sum(&[of_wavelength(wavelength, 0.3), of_wavelength(wavelength, 0.2)]);
+            let one =
+                HueColor::sum(&[of_wavelength(wavelength, 0.3), of_wavelength(wavelength, 0.2)]);
             assert!((near.wavelength_nm - one.wavelength_nm).abs() < 1e-4, "{near:?} {one:?}");
             assert!((near.value - one.value).abs() < 1e-5, "{near:?} {one:?}");
         }

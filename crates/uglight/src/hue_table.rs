@@ -35,7 +35,10 @@ impl HueTable {
             let hue = FIRST + point as f64 * STEP;
             [hue_to_wavelength(hue), slope(hue)]
         };
-        Self { cubics: std::array::from_fn(cubic), points: (0..=CELLS * INTERVALS).map(point).collect() }
+        Self {
+            cubics: std::array::from_fn(cubic),
+            points: (0..=CELLS * INTERVALS).map(point).collect(),
+        }
     }
 
     /// Like [`wavelength_to_hue`], up to rounding.
@@ -43,7 +46,8 @@ impl HueTable {
     pub fn hue(&self, wavelength_nm: f64) -> f64 {
         let wavelength_nm = wavelength_nm.clamp(VIOLET_END_NM, RED_END_NM);
         let inner = CONTROL_POINTS[1..INTERVALS].iter();
-        let interval: usize = inner.map(|point| usize::from(wavelength_nm < point.wavelength_nm)).sum();
+        let interval: usize =
+            inner.map(|point| usize::from(wavelength_nm < point.wavelength_nm)).sum();
         let [red, a, b, c, d] = self.cubics[interval];
         let t = wavelength_nm - red;
         a + t * (b + t * (c + t * d))
@@ -65,7 +69,9 @@ impl HueTable {
         }
         let [[a, slope_a], [b, slope_b]] = [self.points[cell], self.points[cell + 1]];
         let rest = 1.0 - s;
-        let near = a + s * s * (3.0 - 2.0 * s) * (b - a) + s * rest * STEP * (rest * slope_a - s * slope_b);
+        let near = a
+            + s * s * (3.0 - 2.0 * s) * (b - a)
+            + s * rest * STEP * (rest * slope_a - s * slope_b);
         let [red, a, b, c, d] = self.cubics[cell / CELLS];
         let t = near - red;
         near - (a + t * (b + t * (c + t * d)) - hue_deg) / (b + t * (2.0 * c + t * 3.0 * d))

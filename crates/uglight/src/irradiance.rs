@@ -87,7 +87,8 @@ impl IncidentLamp {
     /// their rows, with their shares.
     fn of_colors(self, colors: &[(u32, f64); 2], mut visit: impl FnMut(IncidentLamp)) {
         for &(lamp, share) in colors.iter().filter(|(_, share)| *share > 0.0) {
-            let irradiance = Irradiance { lamp, level: share * self.irradiance.level, ..self.irradiance };
+            let irradiance =
+                Irradiance { lamp, level: share * self.irradiance.level, ..self.irradiance };
             visit(Self { irradiance, part: share * self.part, ..self });
         }
     }
@@ -97,7 +98,12 @@ impl SurfaceElement {
     /// The contribution of each lamp, in their order; none of those behind the surface.
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
-        self.for_each_incident(lamps, frames, |_, _| (None, 1.0), |incident| all.push(incident.irradiance));
+        self.for_each_incident(
+            lamps,
+            frames,
+            |_, _| (None, 1.0),
+            |incident| all.push(incident.irradiance),
+        );
         all
     }
 
@@ -117,44 +123,53 @@ impl SurfaceElement {
         let any_moves = lamps.iter().any(|lamp| self.moving_body(lamp, frames).is_some());
         let moving = if any_moves { MovingElement::new(self, frames) } else { None };
         // Those that follow are colours of lamps that change.
-        for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
+        for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none())
+        {
             let (sampled, index) = place(row, lamp);
             let mut from = |place: LampPlace, share: f64| {
                 let place = lamp.shifted(place, shift);
                 let colors = match &lamp.table {
-                    Some(table) => match self.time_of(lamp, place, frames, moving.as_ref(), index) {
-                        Some(own_time) => Some(table.at(own_time)),
-                        None => return,
-                    },
+                    Some(table) => {
+                        match self.time_of(lamp, place, frames, moving.as_ref(), index) {
+                            Some(own_time) => Some(table.at(own_time)),
+                            None => return,
+                        }
+                    }
                     None => None,
                 };
-                let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
-                    if level <= 0.0 {
-                        return;
-                    }
-                    let lamp = row as u32;
-                    let irradiance = Irradiance { lamp, level: share * level, doppler };
-                    let whole = IncidentLamp { irradiance, toward, part: share * part };
-                    match &colors {
-                        None => visit(whole),
-                        Some(colors) => whole.of_colors(colors, &mut visit),
-                    }
-                };
+                let mut add =
+                    |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
+                        if level <= 0.0 {
+                            return;
+                        }
+                        let lamp = row as u32;
+                        let irradiance = Irradiance { lamp, level: share * level, doppler };
+                        let whole = IncidentLamp { irradiance, toward, part: share * part };
+                        match &colors {
+                            None => visit(whole),
+                            Some(colors) => whole.of_colors(colors, &mut visit),
+                        }
+                    };
                 match self.moving_body(lamp, frames) {
                     None => {
                         let level = lamp.level_from(place, standing.point, standing.normal);
                         let toward = standing.direction_at_rest(place);
-                        let part = toward
-                            .map_or(1.0, |(toward, distance)| lamp.part_at(distance, -toward, lamp.beam));
+                        let part = toward.map_or(1.0, |(toward, distance)| {
+                            lamp.part_at(distance, -toward, lamp.beam)
+                        });
                         add(level, 1.0, toward, part);
                     }
                     Some(body) => {
-                        moving.as_ref().and_then(|moving| moving.light_of(lamp, (place, body), &mut add));
+                        moving
+                            .as_ref()
+                            .and_then(|moving| moving.light_of(lamp, (place, body), &mut add));
                     }
                 }
             };
             match sampled {
-                None if lamp.is_area() => lamp.places().for_each(|(place, share)| from(place, share)),
+                None if lamp.is_area() => {
+                    lamp.places().for_each(|(place, share)| from(place, share))
+                }
                 place => from(place.unwrap_or(lamp.place), 1.0),
             }
         }
@@ -169,9 +184,13 @@ impl SurfaceElement {
             return Some((toward, 1.0, lamp.part_at(distance, -toward, lamp.beam)));
         };
         let mut light = None;
-        MovingElement::new(self, frames)?.light_of(lamp, (place, body), &mut |_, doppler, toward, part| {
-            light = toward.map(|(toward, _)| (toward, doppler, part));
-        });
+        MovingElement::new(self, frames)?.light_of(
+            lamp,
+            (place, body),
+            &mut |_, doppler, toward, part| {
+                light = toward.map(|(toward, _)| (toward, doppler, part));
+            },
+        );
         light
     }
 
@@ -223,9 +242,10 @@ impl SurfaceElement {
         match place {
             LampPlace::Everywhere => None,
             LampPlace::Afar(toward) => Some((toward, f64::INFINITY)),
-            LampPlace::At(place) => {
-                Some((ugphysics::unit_or_zero(place - self.point), ugphysics::length(place - self.point)))
-            }
+            LampPlace::At(place) => Some((
+                ugphysics::unit_or_zero(place - self.point),
+                ugphysics::length(place - self.point),
+            )),
         }
     }
 

@@ -136,9 +136,14 @@ impl Lamps {
     ///
     /// `eye`: in scene coordinates. `is_spectral`: colours are spectra, those of lamps as well.
     pub fn new(scene: &Scene, eye: DVec3, is_spectral: bool) -> Self {
-        let all: Vec<Lamp> = scene.lights.iter().map(|light| lamp(scene, light, eye, is_spectral)).collect();
+        let all: Vec<Lamp> =
+            scene.lights.iter().map(|light| lamp(scene, light, eye, is_spectral)).collect();
         let is_colored = all.iter().any(|lamp| lamp.is_colored);
-        Self { all, is_colored, is_daylight: scene.lights.iter().all(|light| light.color.is_none()) }
+        Self {
+            all,
+            is_colored,
+            is_daylight: scene.lights.iter().all(|light| light.color.is_none()),
+        }
     }
 
     /// The same, followed by a lamp for each colour of those that change with own time
@@ -206,7 +211,8 @@ pub fn has_colored_lamps(scene: &Scene) -> bool {
     };
     scene.lights.iter().filter_map(|light| light.color).flat_map(all).any(|id| {
         let color = &scene.colors[id.index()];
-        let is_source = matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
+        let is_source =
+            matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
         is_source || hsv(scene, color).saturation > 0.0
     })
 }
@@ -283,7 +289,9 @@ impl Lamp {
             return white;
         }
         let linear = match spectrum.is_surface() {
-            false => intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO),
+            false => {
+                intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO)
+            }
             true => linear,
         };
         let encoded = (linear / linear.max_element()).to_array().map(srgb_encode);
@@ -322,7 +330,11 @@ impl Lamp {
                 // The angle between unit vectors, exact for small ones, too.
                 let off = 2.0 * libm::atan2((leaving - axis).length(), (leaving + axis).length());
                 let inside = angle - off.to_degrees();
-                let x = if edge > 0.0 { (inside / edge).clamp(0.0, 1.0) } else { f64::from(inside >= 0.0) };
+                let x = if edge > 0.0 {
+                    (inside / edge).clamp(0.0, 1.0)
+                } else {
+                    f64::from(inside >= 0.0)
+                };
                 part * x * x * (3.0 - 2.0 * x)
             }
             Beam::Area([u, v]) => part * unit_or_zero(u.cross(v)).dot(leaving).max(0.0),
@@ -342,8 +354,11 @@ impl Lamp {
     /// The places that stand for the whole lamp, with their shares: nodes of Gauss–Legendre
     /// quadrature, three along each edge of a parallelogram.
     pub fn places(&self) -> impl Iterator<Item = (LampPlace, f64)> {
-        const NODES: [(f64, f64); 3] =
-            [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+        const NODES: [(f64, f64); 3] = [
+            (0.112_701_665_379_258_3, 5.0 / 18.0),
+            (0.5, 8.0 / 18.0),
+            (0.887_298_334_620_741_7, 5.0 / 18.0),
+        ];
         let is_area = self.is_area();
         let nodes = NODES.into_iter().flat_map(|one| NODES.map(|other| (one, other)));
         let nodes = nodes.take(if is_area { 9 } else { 0 });

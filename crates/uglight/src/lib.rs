@@ -57,14 +57,15 @@ mod vertex_color;
 
 pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor};
 pub use color::{
-    ColorForm, Mixing, RestColor, color_form, display_hue, hsv, hsv_and_factor, mean_hue, spectra_note,
-    spectrum,
+    ColorForm, Mixing, RestColor, color_form, display_hue, hsv, hsv_and_factor, mean_hue,
+    spectra_note, spectrum,
 };
 pub use face_colors::FaceColors;
 pub use hue::{HueColor, HueShift};
 pub use irradiance::{IncidentLamp, Irradiance, ScatteringTime, SurfaceElement};
 pub use lamp::{
-    DEFAULT_AMBIENT, DEFAULT_FROM_EYE, FallOff, Lamp, LampPlace, LampTable, Lamps, has_colored_lamps,
+    DEFAULT_AMBIENT, DEFAULT_FROM_EYE, FallOff, Lamp, LampPlace, LampTable, Lamps,
+    has_colored_lamps,
 };
 pub use light_names::light_names;
 pub use lighting::Lighting;

@@ -17,7 +17,9 @@ pub fn light_names(scene: &Scene) -> Vec<String> {
             LightKind::Local { .. } => ("local", &mut counts[2]),
         };
         *count += 1;
-        light.name.map_or_else(|| format!("{kind} {count}"), |name| scene.names.get(name).to_owned())
+        light
+            .name
+            .map_or_else(|| format!("{kind} {count}"), |name| scene.names.get(name).to_owned())
     };
     scene.lights.iter().map(name).collect()
 }

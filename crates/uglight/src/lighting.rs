@@ -34,7 +34,13 @@ impl Lighting {
     /// `eye`: in scene coordinates. `forward`: unit vector along the view. `law`: the brightness
     /// law of hues, which determines whether levels multiply their linear light. `is_spectral`:
     /// colours are spectra.
-    pub fn new(scene: &Scene, eye: DVec3, forward: DVec3, law: Brightness, is_spectral: bool) -> Self {
+    pub fn new(
+        scene: &Scene,
+        eye: DVec3,
+        forward: DVec3,
+        law: Brightness,
+        is_spectral: bool,
+    ) -> Self {
         let all = Lamps::or_default(scene, eye, forward, is_spectral);
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
             all.iter().cloned().partition(|lamp| lamp.place == LampPlace::Everywhere);
@@ -60,7 +66,12 @@ impl Lighting {
     }
 
     /// The contributions of lamps. The other arguments: as of [`Lighting::level`].
-    pub fn irradiances(lamps: &Lamps, point: DVec3, normal: DVec3, shift: DVec3) -> Vec<Irradiance> {
+    pub fn irradiances(
+        lamps: &Lamps,
+        point: DVec3,
+        normal: DVec3,
+        shift: DVec3,
+    ) -> Vec<Irradiance> {
         let irradiance = |(row, lamp): (usize, &Lamp)| Irradiance {
             lamp: row as u32,
             level: lamp.level_at_rest(point, normal, shift),
@@ -100,8 +111,15 @@ impl Lighting {
     }
 
     #[inline]
-    fn sum(&self, point: DVec3, normal: DVec3, shift: DVec3, scale: impl Fn(&Lamp) -> DVec3) -> DVec3 {
-        let lit = |sum: DVec3, lamp: &Lamp| sum + scale(lamp) * lamp.level_at_rest(point, normal, shift);
+    fn sum(
+        &self,
+        point: DVec3,
+        normal: DVec3,
+        shift: DVec3,
+        scale: impl Fn(&Lamp) -> DVec3,
+    ) -> DVec3 {
+        let lit =
+            |sum: DVec3, lamp: &Lamp| sum + scale(lamp) * lamp.level_at_rest(point, normal, shift);
         self.lamps.iter().fold(scale(&self.ambient), lit)
     }
 
@@ -119,15 +137,19 @@ impl Lighting {
     ) -> Vec<(String, DVec3)> {
         let is_linear = is_light || self.acts_on_light;
         let scale = |lamp: &Lamp| if is_linear { lamp.linear } else { lamp.color };
-        let is_ambient =
-            |row: usize| scene.lights.get(row).map_or(row == 0, |light| light.kind == LightKind::Ambient);
+        let is_ambient = |row: usize| {
+            scene.lights.get(row).map_or(row == 0, |light| light.kind == LightKind::Ambient)
+        };
         let names = light_names(scene).into_iter().enumerate();
         let (ambient, others): (Vec<_>, Vec<_>) = names.partition(|(row, _)| is_ambient(*row));
         let ambient = match &ambient[..] {
-            [(row, name)] if scene.lights.get(*row).is_some_and(|light| light.name.is_some()) => name,
+            [(row, name)] if scene.lights.get(*row).is_some_and(|light| light.name.is_some()) => {
+                name
+            }
             _ => "ambient",
         };
-        let part = |(lamp, (_, name))| (name, scale(lamp) * lamp.level_at_rest(point, normal, shift));
+        let part =
+            |(lamp, (_, name))| (name, scale(lamp) * lamp.level_at_rest(point, normal, shift));
         let others = self.lamps.iter().zip(others).map(part);
         std::iter::once((ambient.to_owned(), scale(&self.ambient))).chain(others).collect()
     }

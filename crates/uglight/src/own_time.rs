@@ -30,7 +30,8 @@ pub fn freeze_colors_at_zero(scene: &mut Scene) {
     for row in 0..scene.color_tables.len() {
         let table = &scene.color_tables[row];
         let (id, parts) = (table.color, table.at(0.0).parts);
-        let color = mean_color(parts.map(|(part, share)| (RestColor::new(scene, Some(part)), share)));
+        let color =
+            mean_color(parts.map(|(part, share)| (RestColor::new(scene, Some(part)), share)));
         if parts[1].1 == 0.0 {
             scene.colors[id.index()].value = scene.colors[parts[0].0.index()].value;
             continue;
@@ -66,7 +67,8 @@ impl Appearance {
         let rows = [(a.index() as u32, share), (b.index() as u32, rest), (0, 0.0), (0, 0.0)];
         let part = |(color, share)| {
             let swatch = of(color);
-            let linear = swatch.form.light().unwrap_or_else(|| shown_light(self.palette.hsv(&swatch)));
+            let linear =
+                swatch.form.light().unwrap_or_else(|| shown_light(self.palette.hsv(&swatch)));
             (swatch.form, linear, share)
         };
         let swatch = if rest == 0.0 {

@@ -60,8 +60,14 @@ pub struct Swatch {
 
 impl Swatch {
     /// The colour of objects without a colour.
-    pub const WHITE: Self =
-        Self { tint: 0.0, saturation: 0.0, value: 1.0, factor: 1.0, form: ColorForm::Hue, translucency: 0.0 };
+    pub const WHITE: Self = Self {
+        tint: 0.0,
+        saturation: 0.0,
+        value: 1.0,
+        factor: 1.0,
+        form: ColorForm::Hue,
+        translucency: 0.0,
+    };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
@@ -120,7 +126,8 @@ impl Palette {
         is_spectral: bool,
         has_hues_of_light: bool,
     ) -> Self {
-        let has_light = is_spectral || scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Light);
+        let has_light =
+            is_spectral || scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let mut palette = Self {
             swatches: Vec::new(),

@@ -28,7 +28,10 @@ impl ColorShift {
         if is_spectral {
             return Self::spectra(doppler, flux);
         }
-        Self::Hues(HueShift { doppler, law: if flux { law.unwrap_or_default() } else { Brightness::None } })
+        Self::Hues(HueShift {
+            doppler,
+            law: if flux { law.unwrap_or_default() } else { Brightness::None },
+        })
     }
 
     /// A shift of spectra. `doppler`: wavelengths are divided by D; `flux`: the factor D⁵.
@@ -86,7 +89,9 @@ impl ColorShift {
     pub fn seen_colors(self, unit: HueScale, lights: bool) -> SeenColors {
         let scale = match self {
             Self::Hues(shift) => ColorScale::Hues { unit, law: shift.law },
-            Self::Spectra(SpectralShift { flux, infrared, .. }) => ColorScale::Spectra { flux, infrared },
+            Self::Spectra(SpectralShift { flux, infrared, .. }) => {
+                ColorScale::Spectra { flux, infrared }
+            }
         };
         SeenColors { scale, doppler: self.shifts_wavelengths(), lights }
     }
@@ -95,7 +100,9 @@ impl ColorShift {
     pub fn of_stage(&SeenColors { scale, doppler, .. }: &SeenColors) -> Self {
         match scale {
             ColorScale::Hues { law, .. } => Self::hues(doppler, law),
-            ColorScale::Spectra { flux, infrared } => Self::spectra(doppler, flux).with_infrared(infrared),
+            ColorScale::Spectra { flux, infrared } => {
+                Self::spectra(doppler, flux).with_infrared(infrared)
+            }
         }
     }
 

@@ -111,7 +111,9 @@ impl Spectra {
             }
             let part = |part: &Irradiance| {
                 let lamp = &lamps[part.lamp as usize];
-                part.level * lamp.intensity * self.xyz_under_lamp(row, ln_shift, part.lamp as usize, lamp)
+                part.level
+                    * lamp.intensity
+                    * self.xyz_under_lamp(row, ln_shift, part.lamp as usize, lamp)
             };
             libm::exp(gain) * light.iter().map(part).sum::<DVec3>()
         })
@@ -128,22 +130,25 @@ impl Spectra {
     fn color(&self, row: usize) -> &SpectralColor {
         match row.checked_sub(self.colors.len()) {
             None => &self.colors[row],
-            Some(at) => self.lattice[at]
-                .get_or_init(|| SpectralColor::of(corner(at), self.shift.infrared).tabulated(&self.grid)),
+            Some(at) => self.lattice[at].get_or_init(|| {
+                SpectralColor::of(corner(at), self.shift.infrared).tabulated(&self.grid)
+            }),
         }
     }
 
     /// The rows of colours in a row of colours of vertices, or of the lattice, with their shares.
     fn parts(&self, row: u32) -> impl Iterator<Item = (usize, f64)> {
         let mix = self.rows.get(row as usize);
-        let corner = mix.is_none().then(|| (self.colors.len() + row as usize - self.rows.len(), 1.0));
+        let corner =
+            mix.is_none().then(|| (self.colors.len() + row as usize - self.rows.len(), 1.0));
         let parts = mix.into_iter().flat_map(|mix| mix.parts());
         parts.map(|(color, share)| (color_row(color), share)).chain(corner)
     }
 
     /// The strongest colour of a row.
     pub fn spectrum(&self, row: u32) -> &Spectrum {
-        let strongest = self.parts(row).reduce(|best, part| if part.1 > best.1 { part } else { best });
+        let strongest =
+            self.parts(row).reduce(|best, part| if part.1 > best.1 { part } else { best });
         self.color(strongest.map_or(0, |(color, _)| color)).spectrum()
     }
 

@@ -4,7 +4,9 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 use ugphysics::linear_srgb_to_xyz;
-use ugphysics::spectrum::{DopplerGrid, DopplerTable, InfraredRule, LightSpectrum, SmoothCurve, Spectrum};
+use ugphysics::spectrum::{
+    DopplerGrid, DopplerTable, InfraredRule, LightSpectrum, SmoothCurve, Spectrum,
+};
 use ugscene::{ColorId, Scene};
 
 use crate::{Irradiance, Lamp, spectrum};
@@ -82,7 +84,8 @@ impl SpectralShift {
                         * flux(cube)
                         * lamp.spectrum().at(nm * own * shift(part.doppler))
                 };
-                let lit = || surface.transmittance(nm * own) * light.iter().map(received).sum::<f64>();
+                let lit =
+                    || surface.transmittance(nm * own) * light.iter().map(received).sum::<f64>();
                 let part = |it: &SpectralFilter<'_>| it.color.transmittance(nm * shift(it.doppler));
                 let light = emitted.as_ref().map_or_else(lit, |emitted| emitted.at(nm * own));
                 gain * filters.iter().map(part).product::<f64>() * light
@@ -93,7 +96,9 @@ impl SpectralShift {
         }
         // Surfaces reflect, and all else emits.
         let curve = SmoothCurve::new(|nm| {
-            let part = |filter: &SpectralFilter<'_>| filter.color.transmittance(nm * shift(filter.doppler));
+            let part = |filter: &SpectralFilter<'_>| {
+                filter.color.transmittance(nm * shift(filter.doppler))
+            };
             filters.iter().map(part).product::<f64>() * surface.transmittance(nm * own)
         });
         if !surface.is_surface() {
@@ -103,7 +108,8 @@ impl SpectralShift {
         for part in light {
             let lamp = &lamps[part.lamp as usize];
             let xyz = lamp.spectrum().seen_through(&curve, own * shift(part.doppler));
-            let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
+            let received =
+                part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
             sum += received * gain * DVec3::from(xyz);
         }
         sum
@@ -174,7 +180,10 @@ impl SpectralColor {
     /// ln X, ln Y, ln Z at the points of the grid, if it was [tabulated](Self::tabulated).
     pub fn points(&self, grid: &DopplerGrid) -> Option<impl Iterator<Item = [f64; 3]>> {
         let table = self.table.as_ref()?;
-        Some((0..grid.n_points()).map(|idx| table.point(idx, |idx| grid.ln_xyz(&self.spectrum, idx))))
+        Some(
+            (0..grid.n_points())
+                .map(|idx| table.point(idx, |idx| grid.ln_xyz(&self.spectrum, idx))),
+        )
     }
 
     /// X, Y, Z as seen at a ln D.  Eq. (P12), (P19)

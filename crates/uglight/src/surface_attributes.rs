@@ -6,7 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
-    BodyId, ColorId, ColorMix, ColorValue, RestFrames, Scene, SeenVertices, VertexId, Wire, vertex_mixes,
+    BodyId, ColorId, ColorMix, ColorValue, RestFrames, Scene, SeenVertices, VertexId, Wire,
+    vertex_mixes,
 };
 
 use crate::{ColorShift, HueShift, Mixing, Palette, RestColor, Swatch, VertexColor, vertex_colors};
@@ -141,7 +142,12 @@ fn row(color: ColorId) -> u32 {
 
 /// The rows of vertices that have not all colours of their own; mixed colours are added behind
 /// white.
-fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut Vec<Swatch>) -> Vec<u32> {
+fn mixed_rows(
+    scene: &Scene,
+    rest: &[DVec3],
+    palette: &Palette,
+    swatches: &mut Vec<Swatch>,
+) -> Vec<u32> {
     let white = swatches.len() as u32 - 1;
     let colors = vertex_colors(scene, &vertex_mixes(scene, rest)).into_iter();
     let rows = colors.map(|color| match color {
@@ -149,7 +155,11 @@ fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut V
         VertexColor::White => white,
         VertexColor::Mixed(color) => {
             let RestColor { hsv, form, translucency } = color;
-            swatches.push(Swatch { form: palette.marked(form), translucency, ..palette.swatch(hsv) });
+            swatches.push(Swatch {
+                form: palette.marked(form),
+                translucency,
+                ..palette.swatch(hsv)
+            });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1
         }

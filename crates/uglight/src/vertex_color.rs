@@ -63,7 +63,8 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
     let mut translucency = 0.0;
     let mut mixing = Mixing::Hue;
     for &(color, share) in parts {
-        mixing = mixing.max(color.map_or(Mixing::Hue, |color| Mixing::of(&scene.colors[color.index()])));
+        mixing =
+            mixing.max(color.map_or(Mixing::Hue, |color| Mixing::of(&scene.colors[color.index()])));
         sum += color.map_or(DVec3::ONE, |color| linear[color.index()]) * share;
         translucency += color.map_or(0.0, |color| scene.colors[color.index()].translucency) * share;
     }
@@ -83,7 +84,9 @@ mod tests {
         let shown: Vec<String> = vertex_colors(&scene, &vertex_mixes(&scene, &positions))
             .into_iter()
             .map(|color| match color {
-                VertexColor::Named(id) => scene.names.get(scene.colors[id.index()].name).to_string(),
+                VertexColor::Named(id) => {
+                    scene.names.get(scene.colors[id.index()].name).to_string()
+                }
                 VertexColor::White => "white".to_string(),
                 VertexColor::Mixed(color) => {
                     let rgb = color.hsv.to_rgb().map(ugphysics::srgb_decode);

@@ -42,7 +42,11 @@ const PIECES_ON_WORLD_LINES: usize = 1_000_000;
 
 /// The limit of pieces for a picture of this size: more than can be seen in it, and
 /// [`MAX_PIECES`] at most.
-pub(crate) fn max_pieces(n_faces: usize, [width, height]: [u32; 2], motions: &[RelativeMotion]) -> usize {
+pub(crate) fn max_pieces(
+    n_faces: usize,
+    [width, height]: [u32; 2],
+    motions: &[RelativeMotion],
+) -> usize {
     let [least, per_pixel] = PIECES_OF_PICTURE;
     let n_pixels = (width as usize).saturating_mul(height as usize);
     let of_picture = per_pixel.saturating_mul(n_pixels).saturating_add(least);
@@ -69,7 +73,9 @@ pub(crate) fn cut(
     for (face, cut) in (Criterion { mesh, bounds }).first_cuts(scene, evenness) {
         face_edges(scene, &scene.faces[face as usize]).for_each(|[a, b]| mesh.add_rim(a.0, b.0));
         match cut {
-            Cut::Pieces(shapes) => fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape })),
+            Cut::Pieces(shapes) => {
+                fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape }))
+            }
             Cut::EdgeOn(lines) => outcome.lines.extend(lines),
             Cut::Contours(lines) => {
                 outcome.lines.extend(lines);
@@ -84,7 +90,8 @@ pub(crate) fn cut(
         progress.check()?;
         let criterion = Criterion { mesh, bounds };
         sort(&criterion, std::mem::take(&mut fresh), &mut open, &mut outcome.pieces);
-        let line_marks: Vec<Vec<bool>> = outcome.lines.par_iter().map(|line| criterion.line(line)).collect();
+        let line_marks: Vec<Vec<bool>> =
+            outcome.lines.par_iter().map(|line| criterion.line(line)).collect();
         let Some(least) = least_due(mesh, &open, &outcome.lines, &line_marks) else { break };
 
         let wanted = Wanted::new(&open, &outcome.lines, &line_marks);
@@ -148,10 +155,14 @@ impl Wanted {
         if open.par_iter().all(|open| open.verdict.bends == open.verdict.shows.edges) {
             return Wanted { edges: None };
         }
-        let of_pieces = open.iter().flat_map(|open| open.piece.shape.edges().zip(open.verdict.shows.edges));
-        let of_lines =
-            lines.iter().zip(line_marks).flat_map(|(line, marks)| line.edges().zip(marks.iter().copied()));
-        let edges = of_pieces.chain(of_lines).filter(|&(_, shows)| shows).map(|(ends, _)| in_order(ends));
+        let of_pieces =
+            open.iter().flat_map(|open| open.piece.shape.edges().zip(open.verdict.shows.edges));
+        let of_lines = lines
+            .iter()
+            .zip(line_marks)
+            .flat_map(|(line, marks)| line.edges().zip(marks.iter().copied()));
+        let edges =
+            of_pieces.chain(of_lines).filter(|&(_, shows)| shows).map(|(ends, _)| in_order(ends));
         Wanted { edges: Some(edges.collect()) }
     }
 
@@ -172,7 +183,8 @@ fn length_squared(mesh: &RefinedMesh, (a, b): (u32, u32)) -> f64 {
 
 /// Appends each piece to `open` or `done`.
 fn sort(criterion: &Criterion, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &mut Vec<Piece>) {
-    let verdicts: Vec<Verdict> = pieces.par_iter().map(|piece| criterion.piece(&piece.shape)).collect();
+    let verdicts: Vec<Verdict> =
+        pieces.par_iter().map(|piece| criterion.piece(&piece.shape)).collect();
     for (piece, verdict) in pieces.into_iter().zip(verdicts) {
         if verdict.is_open() {
             open.push(Open { piece, verdict });
@@ -185,7 +197,12 @@ fn sort(criterion: &Criterion, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &
 /// The smallest squared length of edges to halve in this round: the largest of the wanted ones,
 /// rounded down to a power of 4, so that the result for a piece does not depend on the lengths of
 /// edges elsewhere. `None` if no edges are left to halve.
-fn least_due(mesh: &RefinedMesh, open: &[Open], lines: &[Polyline], line_marks: &[Vec<bool>]) -> Option<f64> {
+fn least_due(
+    mesh: &RefinedMesh,
+    open: &[Open],
+    lines: &[Polyline],
+    line_marks: &[Vec<bool>],
+) -> Option<f64> {
     let longest = |edges: &mut dyn Iterator<Item = ((u32, u32), bool)>| -> Option<f64> {
         edges.filter(|&(_, mark)| mark).map(|(ends, _)| length_squared(mesh, ends)).reduce(f64::max)
     };
@@ -196,8 +213,9 @@ fn least_due(mesh: &RefinedMesh, open: &[Open], lines: &[Polyline], line_marks: 
         }
         longest(&mut open.piece.shape.edges().zip(open.verdict.shows.edges))
     };
-    let of_line =
-        |(line, marks): (&Polyline, &Vec<bool>)| longest(&mut line.edges().zip(marks.iter().copied()));
+    let of_line = |(line, marks): (&Polyline, &Vec<bool>)| {
+        longest(&mut line.edges().zip(marks.iter().copied()))
+    };
     let of_pieces = open.par_iter().filter_map(of_piece).reduce_with(f64::max);
     let of_lines = lines.iter().zip(line_marks).filter_map(of_line).reduce(f64::max);
     of_pieces.into_iter().chain(of_lines).reduce(f64::max).map(octave)
@@ -258,8 +276,10 @@ mod tests {
         let text = "v a -9 -9 1; v b 9 -9 1; v c 9 9 1; v d -9 9 1; f (a b c d); w (a c);";
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-        let motions =
-            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), ShownEffects::default())];
+        let motions = [RelativeMotion::new(
+            Velocity::from_beta(DVec3::X * 0.99).unwrap(),
+            ShownEffects::default(),
+        )];
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene
                 .vertices
@@ -273,12 +293,17 @@ mod tests {
                 ViewVolume::default(),
                 &motions,
             );
-            let outcome = cut(&scene, &Evenness::default(), &mut mesh, &bounds, max_pieces, &()).unwrap();
+            let outcome =
+                cut(&scene, &Evenness::default(), &mut mesh, &bounds, max_pieces, &()).unwrap();
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
-            assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");
+            assert!(
+                (max_pieces / 10..=max_pieces).contains(&n_pieces),
+                "{n_pieces} of {max_pieces}"
+            );
             // Euler's formula for a square holds only if pieces share their edges.
-            let edges = outcome.pieces.iter().flat_map(|piece| piece.shape.edges().collect::<Vec<_>>());
+            let edges =
+                outcome.pieces.iter().flat_map(|piece| piece.shape.edges().collect::<Vec<_>>());
             let edges: FxHashSet<_> = edges.map(|(a, b)| (a.min(b), a.max(b))).collect();
             let vertices: FxHashSet<_> = edges.iter().flat_map(|&(a, b)| [a, b]).collect();
             assert_eq!(vertices.len() + n_pieces, edges.len() + 1);

@@ -13,8 +13,8 @@ use crate::near_lamps::NearLamps;
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
-    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies,
-    junctions, remaining_errors, rounds, tables, uniform, viewpoint,
+    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull,
+    distant_bodies, junctions, remaining_errors, rounds, tables, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -40,7 +40,8 @@ pub fn apply_with(
     rounds::cut(&mut scene, config)?;
     let n_faces = scene.faces.len();
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
-    let placed = PlacedBodies::move_to_camera_frame(&mut scene, &config.motion(), &camera, config.size)?;
+    let placed =
+        PlacedBodies::move_to_camera_frame(&mut scene, &config.motion(), &camera, config.size)?;
     let PlacedBodies { eye, default_camera, motions, .. } = &placed;
     let mut points = points(&scene, &placed);
     viewpoint::refuse_vertices_at_eye(&scene, &points, motions)?;
@@ -68,7 +69,9 @@ pub fn apply_with(
         Pieces::UpTo(_) => mesh.junctions = junctions::find(&scene, &mesh.points, motions),
         // Rays (`ugrainbow -xc`) meet the faces at rest.
         Pieces::PerEdge(1) => {}
-        Pieces::PerEdge(_) => n_open_junctions = junctions::find(&scene, &mesh.points, motions).len(),
+        Pieces::PerEdge(_) => {
+            n_open_junctions = junctions::find(&scene, &mesh.points, motions).len()
+        }
     }
     mesh.tables = tables::tables_of_vertices(&scene, &mesh.points, &mesh.junctions);
     // Colours that change are not mixed with others.
@@ -76,15 +79,17 @@ pub fn apply_with(
     let evenness = Evenness::new(is_apart);
     let max_pieces = adaptive::max_pieces(n_faces, config.size, motions);
     let outcome = match config.pieces {
-        Pieces::UpTo(_) => adaptive::cut(&scene, &evenness, &mut mesh, &bounds, max_pieces, progress)?,
+        Pieces::UpTo(_) => {
+            adaptive::cut(&scene, &evenness, &mut mesh, &bounds, max_pieces, progress)?
+        }
         Pieces::PerEdge(n) => uniform::cut(&scene, &evenness, &mut mesh, n)
             .map_err(|n_pieces| Error::TooManyPieces { n_pieces })?,
     };
     let has_new = !mesh.recipes.is_empty();
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     outcome.put_into(&mut scene);
-    let inherits =
-        attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart).ok_or(Error::TooManyParts)?;
+    let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart)
+        .ok_or(Error::TooManyParts)?;
     let n_placed = mesh.points.len() - mesh.recipes.len();
     let shown: Vec<_> = mesh.points.par_iter().map(Point::shown).collect();
     if let Some(row) = placed.show(&mut scene, &shown, n_placed) {

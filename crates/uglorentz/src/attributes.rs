@@ -7,7 +7,8 @@ use rustc_hash::FxHashMap;
 use uglight::{Mixing, RestColor, VertexColor};
 use ugphysics::{Hsv, srgb_encode, unit_or_zero};
 use ugscene::{
-    Color, ColorId, ColorMix, ColorValue, Mix, MixtureNames, Scene, Tint, Vertex, face_vertices, vertex_mixes,
+    Color, ColorId, ColorMix, ColorValue, Mix, MixtureNames, Scene, Tint, Vertex, face_vertices,
+    vertex_mixes,
 };
 
 use crate::refined_mesh::Recipe;
@@ -40,7 +41,8 @@ pub(crate) fn add_vertices(
         return Some(Vec::new());
     }
     let mut n_parts = 0;
-    let prefix = free_prefix(PREFIX, scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
+    let prefix =
+        free_prefix(PREFIX, scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
     let n_vertices = scene.vertices.len() + recipes.len();
     let is_used = shades.is_some().then(|| face_vertices(scene, n_vertices));
     let mut inherits = vec![false; if shades.is_some() { n_vertices } else { 0 }];
@@ -123,7 +125,10 @@ pub(crate) fn smooth(scene: &mut Scene, points: &[Point], motions: &[RelativeMot
 }
 
 /// `prefix`, extended by `#` until no name begins with it.
-pub(crate) fn free_prefix<'a>(prefix: &str, names: impl Iterator<Item = &'a str> + Clone) -> String {
+pub(crate) fn free_prefix<'a>(
+    prefix: &str,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> String {
     let mut prefix = prefix.to_string();
     while names.clone().any(|name| name.starts_with(&prefix)) {
         prefix.push('#');
@@ -132,7 +137,10 @@ pub(crate) fn free_prefix<'a>(prefix: &str, names: impl Iterator<Item = &'a str>
 }
 
 /// Parents and their weights.
-fn parents<'a>(scene: &'a Scene, recipe: &Recipe) -> impl Iterator<Item = (&'a Vertex, f64)> + Clone {
+fn parents<'a>(
+    scene: &'a Scene,
+    recipe: &Recipe,
+) -> impl Iterator<Item = (&'a Vertex, f64)> + Clone {
     let pairs = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
     pairs.map(|(row, weight)| (&scene.vertices[row as usize], weight))
 }
@@ -186,7 +194,8 @@ impl ColorMixer {
     /// parent has none.
     fn mix(&mut self, scene: &mut Scene, recipe: &Recipe) -> Option<ColorId> {
         let part = |(vertex, weight): (&Vertex, f64)| Some((vertex.color?, weight));
-        let mut parts: Vec<(ColorId, f64)> = parents(scene, recipe).map(part).collect::<Option<_>>()?;
+        let mut parts: Vec<(ColorId, f64)> =
+            parents(scene, recipe).map(part).collect::<Option<_>>()?;
         parts.sort_by_key(|&(color, _)| color);
         let first = parts.first()?.0;
         if parts.iter().all(|&(color, _)| color == first) {
@@ -196,10 +205,12 @@ impl ColorMixer {
         if let Some(&known) = self.mixed.get(&key) {
             return Some(known);
         }
-        let shades: Vec<Shade> = parts.iter().map(|&(color, _)| Shade::of(scene, Some(color))).collect();
+        let shades: Vec<Shade> =
+            parts.iter().map(|&(color, _)| Shade::of(scene, Some(color))).collect();
         let shade = blend(shades.iter().zip(parts.iter().map(|&(_, weight)| weight)));
-        let parts =
-            parts.into_iter().map(|(color, weight)| (ColorMix::One(Some(color)).of_spectra(scene), weight));
+        let parts = parts
+            .into_iter()
+            .map(|(color, weight)| (ColorMix::One(Some(color)).of_spectra(scene), weight));
         let shares = sum(parts);
         let color = self.add(scene, &shade, &shares);
         self.mixed.insert(key, color);
@@ -217,7 +228,8 @@ impl ColorMixer {
         if color.is_some() {
             return (Shade::of(scene, color), ColorMix::One(color).of_spectra(scene));
         }
-        let parts = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
+        let parts =
+            recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
         let shares = sum(parts.clone().map(|(row, weight)| (&shades[row as usize].1, weight)));
         let parts = parts.map(|(row, weight)| (&shades[row as usize].0, weight));
         let shade = Self::blend_or_same(parts);
@@ -228,7 +240,8 @@ impl ColorMixer {
     fn blend_or_same<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
         match parts.clone().next() {
             Some((first, _))
-                if first.color.is_some() && parts.clone().all(|part| part.0.color == first.color) =>
+                if first.color.is_some()
+                    && parts.clone().all(|part| part.0.color == first.color) =>
             {
                 *first
             }
@@ -237,7 +250,12 @@ impl ColorMixer {
     }
 
     /// The statement for a shade; `None` if it is that of a face.
-    fn statement(&mut self, scene: &mut Scene, shade: &Shade, shares: &ColorMix) -> Option<ColorId> {
+    fn statement(
+        &mut self,
+        scene: &mut Scene,
+        shade: &Shade,
+        shares: &ColorMix,
+    ) -> Option<ColorId> {
         if shade.color.is_some() {
             return None;
         }
@@ -277,7 +295,8 @@ impl ColorMixer {
     fn white(&mut self, scene: &mut Scene) -> ColorId {
         *self.white.get_or_insert_with(|| {
             let name = scene.names.add_parts(&[&self.prefix, "white"]);
-            let value = ColorValue::Hsv { value: 1.0, tint: Tint::Hue(0.0), saturation: 0.0, factor: 1.0 };
+            let value =
+                ColorValue::Hsv { value: 1.0, tint: Tint::Hue(0.0), saturation: 0.0, factor: 1.0 };
             scene.colors.push(Color { name, value, translucency: 0.0 });
             ColorId::from_index(scene.colors.len() - 1)
         })
@@ -324,5 +343,9 @@ fn blend<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
         }
         _ => (uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight))), light),
     };
-    Shade { color: None, is_mixture, rest: RestColor { hsv, form: mixing.form(light), translucency } }
+    Shade {
+        color: None,
+        is_mixture,
+        rest: RestColor { hsv, form: mixing.form(light), translucency },
+    }
 }

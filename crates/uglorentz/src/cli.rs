@@ -8,13 +8,15 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, PIXELS_PER_INCH, Progress, Side, ToolArgs, Words, finite,
-    remedies,
+    CommonArgs, Context, Failure, Look, LookArgs, PIXELS_PER_INCH, Progress, Side, ToolArgs, Words,
+    finite, remedies,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
 
-use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure};
+use crate::{
+    Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure,
+};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
@@ -133,7 +135,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let steps = context.steps();
     steps.step("reading", 0);
     let keeping = ugparse::Options { keeps_rounds: true, ..reading };
-    let parsed = ugparse::read(&source, &keeping, config.camera.name.as_deref()).map_err(pipe::refused)?;
+    let parsed =
+        ugparse::read(&source, &keeping, config.camera.name.as_deref()).map_err(pipe::refused)?;
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
@@ -228,7 +231,8 @@ impl Args {
 
 /// The format of a file of measurements.
 fn table(path: &Path) -> Result<Table, Failure> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy()).unwrap_or_default();
+    let extension =
+        path.extension().map(|extension| extension.to_string_lossy()).unwrap_or_default();
     Table::by_extension(&extension).ok_or_else(|| {
         Failure::Usage(
             "-at writes a table: the name of its file must end with .csv, .ply or .vtp".to_string(),
@@ -245,5 +249,9 @@ fn percent_or_off(word: &str) -> Result<f64, String> {
 }
 
 fn percent(percent: f64) -> Result<f64, String> {
-    if percent > 0.0 { Ok(percent / 100.0) } else { Err("must be a percentage above 0, or off".to_string()) }
+    if percent > 0.0 {
+        Ok(percent / 100.0)
+    } else {
+        Err("must be a percentage above 0, or off".to_string())
+    }
 }

@@ -58,10 +58,12 @@ impl Clocks {
         if !scene.has_changing_surfaces() {
             return Self::default();
         }
-        let lights: Vec<_> = scene.color_tables.iter().map(|table| Lights::new(scene, table)).collect();
+        let lights: Vec<_> =
+            scene.color_tables.iter().map(|table| Lights::new(scene, table)).collect();
         let mut changes = vec![false; scene.bodies.len()];
         for FaceOrWire { body, color, .. } in scene.drawn() {
-            changes[body.index()] |= table_row(scene, color).is_some_and(|row| lights[row].is_some());
+            changes[body.index()] |=
+                table_row(scene, color).is_some_and(|row| lights[row].is_some());
         }
         Self { lights, changes, bound }
     }
@@ -90,8 +92,9 @@ impl Clocks {
             let chord = b.seen - a.seen;
             let along = (point.seen - a.seen).dot(chord) / chord.length_squared();
             let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { s };
-            let is_off =
-                |lights: &Lights| lights.is_off(ends, [1.0 - along, along], point.own_time, self.bound);
+            let is_off = |lights: &Lights| {
+                lights.is_off(ends, [1.0 - along, along], point.own_time, self.bound)
+            };
             self.lights(&tables).any(is_off)
         })
     }
@@ -162,7 +165,8 @@ impl Lights {
         if self.table.is_stepped {
             return false;
         }
-        let drawn: DVec3 = corners.into_iter().zip(weights).map(|(time, part)| part * self.light(time)).sum();
+        let drawn: DVec3 =
+            corners.into_iter().zip(weights).map(|(time, part)| part * self.light(time)).sum();
         MARGIN * (drawn - self.light(own_time)).abs().max_element() > bound * self.brightest
     }
 }
@@ -174,7 +178,8 @@ pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
         return;
     }
     let changing = |color: Option<ColorId>| color.filter(|&color| scene.table_of(color).is_some());
-    let users: Vec<_> = scene.drawn().map(|drawn| (drawn.contours, changing(drawn.color))).collect();
+    let users: Vec<_> =
+        scene.drawn().map(|drawn| (drawn.contours, changing(drawn.color))).collect();
     let rows = users.iter().map(|(rows, _)| rows.clone());
     let copies = ugscene::split_corners(scene, rows, |user, _, vertex| {
         vertex.color.is_none().then_some(users[user].1)
@@ -186,7 +191,8 @@ pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
         for idx in 0..scene.contours.corners(rows.clone()).len() {
             let corner = scene.contours.corners(rows.clone())[idx].index();
             if scene.vertices[corner].color.is_none() {
-                scene.vertices[corner].color = Some(painter.color(scene, table.at(times[corner]).parts));
+                scene.vertices[corner].color =
+                    Some(painter.color(scene, table.at(times[corner]).parts));
             }
         }
     }

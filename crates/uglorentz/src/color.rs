@@ -152,7 +152,8 @@ mod tests {
                 // Around the point that is seen straight ahead, at every scale down to 1/γ.
                 let scale = libm::pow(gamma, -f64::from(k % 7) / 6.0);
                 let a = DVec3::new(step(k, 0.618_034), 0.0, step(k, 0.414_214)) * scale + DVec3::Y;
-                let b = a + DVec3::new(step(k, 0.236_068), 0.0, step(k, 0.645_751)) * (0.03 * scale);
+                let b =
+                    a + DVec3::new(step(k, 0.236_068), 0.0, step(k, 0.645_751)) * (0.03 * scale);
                 let [a, b] = [a, b].map(|p| Point::new(&motion, BodyId::from_index(0), p));
                 let found = error(&a, &b, &motion);
                 n_finite[usize::from(gamma > 1e3)] += u32::from(found < 0.1);

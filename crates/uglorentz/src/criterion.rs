@@ -150,13 +150,16 @@ impl Criterion<'_, '_> {
     /// are chosen by it.
     pub(crate) fn excess(&self, a: u32, b: u32) -> f64 {
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
+        let (from, to, motion) =
+            (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::excess(from, to, motion, self.bounds.tolerance(from))
     }
 
     /// The faces with edges that bend, in order, as triangles and convex quadrilaterals.
     pub(crate) fn first_cuts(&self, scene: &Scene, evenness: &Evenness) -> Vec<(u32, Cut)> {
-        let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face, evenness)?));
+        let cut = |(idx, face): (usize, &Face)| {
+            Some((idx as u32, self.first_cut(scene, face, evenness)?))
+        };
         scene.faces.par_iter().enumerate().filter_map(cut).collect()
     }
 
@@ -165,12 +168,14 @@ impl Criterion<'_, '_> {
         let corners = scene.face_corners(face);
         let motion = self.mesh.motion(corners.first()?.0);
         let is_junction = |[a, b]: [VertexId; 2]| self.mesh.has_junction(a.0, b.0);
-        let has_junctions = !self.mesh.junctions.is_empty() && face_edges(scene, face).any(is_junction);
+        let has_junctions =
+            !self.mesh.junctions.is_empty() && face_edges(scene, face).any(is_junction);
         if !has_junctions && self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
             return None;
         }
         let rest = |vertex: VertexId| -> DVec3 { self.mesh.point(vertex.0).rest };
-        let is_edge_on = motion.world_line().is_none() && edge_on::is_edge_on(scene, face, motion, rest);
+        let is_edge_on =
+            motion.world_line().is_none() && edge_on::is_edge_on(scene, face, motion, rest);
         let cut = if is_edge_on {
             Cut::EdgeOn(as_contours(scene, face))
         } else {
@@ -186,7 +191,11 @@ impl Criterion<'_, '_> {
     }
 
     /// True only if the errors on all lines between these corners, and inside, are below the bound.
-    fn is_right_for_sure(&self, motion: &RelativeMotion, corners: impl Iterator<Item = u32> + Clone) -> bool {
+    fn is_right_for_sure(
+        &self,
+        motion: &RelativeMotion,
+        corners: impl Iterator<Item = u32> + Clone,
+    ) -> bool {
         let Bounds { tolerances, near_lamps, clocks, spreads, .. } = self.bounds;
         let points = corners.map(|corner| self.mesh.point(corner));
         let Some(body) = points.clone().next().map(|point| point.body) else { return true };
@@ -196,7 +205,9 @@ impl Criterion<'_, '_> {
         let body = body.index();
         let tolerance = &tolerances[body];
         let is_shape_right = || match motion.world_line() {
-            Some(_) => world_line::is_surely_right(points.clone(), motion, tolerance.on_world_line()),
+            Some(_) => {
+                world_line::is_surely_right(points.clone(), motion, tolerance.on_world_line())
+            }
             None => {
                 motion.is_at_rest()
                     || early_accept::is_close(points.clone(), spreads[body])
@@ -222,8 +233,10 @@ impl Criterion<'_, '_> {
     pub(crate) fn piece(&self, shape: &Shape) -> Verdict {
         let mut verdict = Verdict::default();
         let motion = self.mesh.motion(shape.corners()[0]);
-        let has_junctions =
-            || !self.mesh.junctions.is_empty() && shape.edges().any(|(a, b)| self.mesh.has_junction(a, b));
+        let has_junctions = || {
+            !self.mesh.junctions.is_empty()
+                && shape.edges().any(|(a, b)| self.mesh.has_junction(a, b))
+        };
         if self.is_right_for_sure(motion, shape.corners().iter().copied()) && !has_junctions() {
             return verdict;
         }
@@ -240,11 +253,13 @@ impl Criterion<'_, '_> {
         let shown = LazyCell::new(|| self.bounds.shown(motion, points));
         let shown = || *shown;
         let shows = &mut verdict.shows;
-        for ((mark, bends), (a, b)) in shows.edges.iter_mut().zip(verdict.bends).zip(shape.edges()) {
+        for ((mark, bends), (a, b)) in shows.edges.iter_mut().zip(verdict.bends).zip(shape.edges())
+        {
             *mark = bends && self.shows(a, b, shown);
         }
-        shows.inside =
-            !shows.any_edge() && self.bends_inside(shape, shown) && !matches!(shown(), Shown::Outline);
+        shows.inside = !shows.any_edge()
+            && self.bends_inside(shape, shown)
+            && !matches!(shown(), Shown::Outline);
         verdict
     }
 
@@ -256,7 +271,8 @@ impl Criterion<'_, '_> {
             return true;
         }
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
+        let (from, to, motion) =
+            (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::shows(from, to, motion, self.bounds.tolerance(from), shown())
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
             || self.is_color_off(low, high)
@@ -269,7 +285,9 @@ impl Criterion<'_, '_> {
             Shape::Quad([a, b, c, d]) => {
                 let bends = |(a, b)| self.bends(a, b) && self.shows(a, b, &shown);
                 [(a, c), (b, d)].into_iter().any(bends)
-                    || [[a, b, c], [a, c, d], [b, c, d], [b, d, a]].into_iter().any(|half| self.bulges(half))
+                    || [[a, b, c], [a, c, d], [b, c, d], [b, d, a]]
+                        .into_iter()
+                        .any(|half| self.bulges(half))
             }
         }
     }

@@ -58,7 +58,9 @@ impl<'m> SeenBody<'m> {
     /// it, whatever its outline.
     fn is_outside(&self, view_volume: &ViewVolume, corners: &[&Point]) -> bool {
         let Some((first, others)) = corners.split_first() else { return false };
-        others.windows(2).all(|edge| self.is_triangle_outside(view_volume, [first, edge[0], edge[1]]))
+        others
+            .windows(2)
+            .all(|edge| self.is_triangle_outside(view_volume, [first, edge[0], edge[1]]))
     }
 
     fn is_triangle_outside(&self, view_volume: &ViewVolume, corners: [&Point; 3]) -> bool {
@@ -73,14 +75,22 @@ impl<'m> SeenBody<'m> {
         }
         let seen = corners.map(|corner| -> SeenPoint {
             let &Point { rest, seen, seen_distance, own_time, inverse_doppler, .. } = corner;
-            (rest, SeenLight { own_time, event: Event { t: -seen_distance, x: seen }, inverse_doppler })
+            (
+                rest,
+                SeenLight {
+                    own_time,
+                    event: Event { t: -seen_distance, x: seen },
+                    inverse_doppler,
+                },
+            )
         });
         let Some(bounds) =
             self.line.seen_triangle(&self.tube, &self.passages, &seen, Event::ORIGIN, Self::LEVELS)
         else {
             return false;
         };
-        let size = corners.map(|corner| corner.seen_distance + corner.own_time.abs() + corner.rest.length());
+        let size = corners
+            .map(|corner| corner.seen_distance + corner.own_time.abs() + corner.rest.length());
         let margin = bounds.deviation + ROUNDING * size.into_iter().fold(0.0, f64::max);
         view_volume.spaces.iter().any(|space| outside(space, space.normal.length() * margin))
     }
@@ -99,8 +109,11 @@ pub(crate) fn cull(
     if view_volume.spaces.is_empty() {
         return 0;
     }
-    let seen_bodies: Vec<Option<SeenBody<'_>>> =
-        motions.iter().enumerate().map(|(body, motion)| SeenBody::new(motion, points, body)).collect();
+    let seen_bodies: Vec<Option<SeenBody<'_>>> = motions
+        .iter()
+        .enumerate()
+        .map(|(body, motion)| SeenBody::new(motion, points, body))
+        .collect();
     let may_be_seen = |face: &Face| {
         if face.shape.is_round() {
             return true;
@@ -118,7 +131,8 @@ pub(crate) fn cull(
     for (face, _) in scene.faces.iter().zip(&seen).filter(|&(_, &seen)| seen) {
         scene.face_corners(face).iter().for_each(|corner| touched[corner.index()] = true);
     }
-    let is_touched = |face: &Face| scene.face_corners(face).iter().any(|corner| touched[corner.index()]);
+    let is_touched =
+        |face: &Face| scene.face_corners(face).iter().any(|corner| touched[corner.index()]);
     let mut kept: Vec<bool> = scene.faces.iter().map(is_touched).collect();
     if scene.wires.is_empty()
         && !kept.contains(&true)
@@ -154,7 +168,9 @@ fn remove(scene: &mut Scene, points: &mut Vec<Point>, kept_faces: &[bool]) {
     let mut copy = |rows: std::ops::Range<u32>| {
         let contours = old.iter(rows);
         let corner = |corner: &VertexId| VertexId(new_vertices[corner.index()]);
-        scene.contours.push_all(contours.map(|contour| contour.iter().map(corner).collect::<Vec<_>>()))
+        scene
+            .contours
+            .push_all(contours.map(|contour| contour.iter().map(corner).collect::<Vec<_>>()))
     };
     scene.faces.iter_mut().for_each(|Face { contours, .. }| *contours = copy(contours.clone()));
     scene.wires.iter_mut().for_each(|Wire { contours, .. }| *contours = copy(contours.clone()));

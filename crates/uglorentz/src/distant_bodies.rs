@@ -35,7 +35,8 @@ struct Extent {
 }
 
 impl Extent {
-    const EMPTY: Extent = Extent { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, nearest: f64::INFINITY };
+    const EMPTY: Extent =
+        Extent { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, nearest: f64::INFINITY };
 
     fn add(&mut self, point: &Point, motion: &RelativeMotion) {
         let rest = motion.boosted_rest(point.rest);

@@ -20,7 +20,8 @@ pub(crate) fn most_spread(motion: &RelativeMotion, tolerance: &Tolerance) -> f64
         let room = 2.0 * least - rest_reach;
         let delta = if room > 0.0 { rest_reach * rest_reach / room } else { f64::INFINITY };
         let floor = 1.0 - motion.gamma() * delta;
-        let is_offset_right = floor > 0.0 && motion.proper_speed() * delta <= tolerance.safe * floor;
+        let is_offset_right =
+            floor > 0.0 && motion.proper_speed() * delta <= tolerance.safe * floor;
         let change = 2.0 * motion.proper_speed() * reach;
         is_offset_right && color_of(motion, change, least, spread, 1.0 - reach) <= tolerance.color
     };
@@ -58,14 +59,17 @@ pub(crate) fn is_right<'a>(
 /// Upper bound of |C − flat|/|C|, by (E5) with u towards the first corner.
 ///
 /// |C| = γ(|p'| − v·p') is at least γ(u − v)·p', and that is linear: least in a corner.
-pub(crate) fn offset<'a>(motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+pub(crate) fn offset<'a>(
+    motion: &RelativeMotion,
+    mut corners: impl Iterator<Item = &'a Point>,
+) -> f64 {
     let Some(first) = corners.next() else { return 0.0 };
     let first_rest = motion.boosted_rest(first.rest);
     let (mut delta, mut floor) = (0.0, first.seen_distance);
     for corner in corners {
         let product = first.rest_distance * corner.rest_distance;
-        let less =
-            lengths_less_dot(first_rest, motion.boosted_rest(corner.rest), product) / first.rest_distance;
+        let less = lengths_less_dot(first_rest, motion.boosted_rest(corner.rest), product)
+            / first.rest_distance;
         delta = f64::max(delta, less);
         floor = f64::min(floor, corner.seen_distance - motion.gamma() * less);
     }

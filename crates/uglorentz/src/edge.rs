@@ -60,7 +60,12 @@ impl Tolerance {
         let error = error.min(std::f64::consts::FRAC_PI_2);
         let offset = error.max(LEAST_OFFSET);
         let safe = libm::sin(error).min(offset);
-        Tolerance { tan_half: libm::tan(error / 2.0), offset, safe, color: color * color::EDGE_SHARE }
+        Tolerance {
+            tan_half: libm::tan(error / 2.0),
+            offset,
+            safe,
+            color: color * color::EDGE_SHARE,
+        }
     }
 
     /// The bounds for bodies on world lines.
@@ -159,7 +164,8 @@ pub(crate) fn errors(
 pub(crate) fn excess(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
     let Errors { angle, offset, color } = errors(a, b, motion, Shown::All, color::rough_error);
     let shape = (libm::tan(angle / 2.0) / tolerance.tan_half).max(offset / tolerance.offset);
-    let relative = |error: f64| if tolerance.color == f64::INFINITY { 0.0 } else { error / tolerance.color };
+    let relative =
+        |error: f64| if tolerance.color == f64::INFINITY { 0.0 } else { error / tolerance.color };
     let mut color = relative(color);
     if color > shape && motion.world_line().is_none() {
         color = relative(color::error(a, b, motion));
@@ -355,6 +361,9 @@ mod tests {
         assert!(!bends(DVec3::Y, DVec3::Y), "no length");
         assert!(!bends(DVec3::ONE, DVec3::splat(7.0)), "seen end-on");
         assert!(!bends(DVec3::splat(f64::NAN), DVec3::ONE));
-        assert!(bends(DVec3::new(-1e-3, 1e-6, 0.0), DVec3::new(1e-3, 1e-6, 0.0)), "size does not matter");
+        assert!(
+            bends(DVec3::new(-1e-3, 1e-6, 0.0), DVec3::new(1e-3, 1e-6, 0.0)),
+            "size does not matter"
+        );
     }
 }

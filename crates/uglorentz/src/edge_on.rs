@@ -63,7 +63,8 @@ pub(crate) fn is_seen_as_line(motion: &RelativeMotion, corners: &[&Point], angle
     let way = (toward - motion.velocity().beta()) * motion.gamma();
     let nearest = rest().map(|corner| way.dot(corner)).fold(f64::INFINITY, f64::min);
     let k = motion.proper_speed() * normal.dot(motion.direction());
-    height <= nearest * (angle.min(DEFAULT_ERROR) / 4.0) && height * (1.0 + k * k).sqrt() <= nearest / 4.0
+    height <= nearest * (angle.min(DEFAULT_ERROR) / 4.0)
+        && height * (1.0 + k * k).sqrt() <= nearest / 4.0
 }
 
 /// Is the eye, in the plane of an outline, outside it and away from its edges?

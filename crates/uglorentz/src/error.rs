@@ -51,7 +51,9 @@ pub enum Error {
     #[error(transparent)]
     TooManyPolygons(#[from] TooManyPolygons),
     /// So many colours meet at vertices that the mixtures of new ones would have too many parts.
-    #[error("the colours of new vertices would mix more than {MOST_PARTS} colours of faces that meet")]
+    #[error(
+        "the colours of new vertices would mix more than {MOST_PARTS} colours of faces that meet"
+    )]
     TooManyParts,
     /// A vertex of a moving body is exactly at the eye.
     #[error("vertex `{name}` lies at the eye, where no direction to it exists")]

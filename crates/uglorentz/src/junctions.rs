@@ -37,11 +37,15 @@ pub(crate) fn find(
     let line = |ends: (u32, u32)| Line::new(points, ends, reach);
     let mut lines: Vec<Line> = open.into_iter().filter_map(line).collect();
     lines.sort_by(|a, b| a.number.total_cmp(&b.number).then(a.ends.cmp(&b.ends)));
-    for close in lines.chunk_by(|a, b| b.number - a.number <= CLOSE).filter(|close| close.len() > 1) {
+    for close in lines.chunk_by(|a, b| b.number - a.number <= CLOSE).filter(|close| close.len() > 1)
+    {
         let along = close[0].direction;
         let place = |row: u32| points[row as usize].rest.dot(along);
-        let mut ends: Vec<(f64, u32)> =
-            close.iter().flat_map(|line| [line.ends.0, line.ends.1]).map(|row| (place(row), row)).collect();
+        let mut ends: Vec<(f64, u32)> = close
+            .iter()
+            .flat_map(|line| [line.ends.0, line.ends.1])
+            .map(|row| (place(row), row))
+            .collect();
         ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for line in close {
             let (a, b) = line.ends;

@@ -111,5 +111,8 @@ pub use report::{LargestError, RemainingErrors, Report};
 pub use ugscene::{Anchor, Measurement, Provenance, measure};
 
 /// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+pub const PROVENANCE: Provenance<'static> = Provenance {
+    program: env!("CARGO_PKG_NAME"),
+    version: env!("CARGO_PKG_VERSION"),
+    command: None,
+};

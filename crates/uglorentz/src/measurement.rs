@@ -19,8 +19,16 @@ pub enum Table {
 }
 
 /// Columns of [`Table::Csv`] after the name, and vertex properties of [`Table::Ply`].
-const COLUMNS: [&str; 8] =
-    ["x", "y", "z", "emission_time", "doppler", "distance", "emission_angle_deg", "rest_emission_angle_deg"];
+const COLUMNS: [&str; 8] = [
+    "x",
+    "y",
+    "z",
+    "emission_time",
+    "doppler",
+    "distance",
+    "emission_angle_deg",
+    "rest_emission_angle_deg",
+];
 
 impl Table {
     /// The format of files with this extension.
@@ -73,7 +81,11 @@ fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
         writeln!(text, "property double {column}")?;
     }
     writeln!(text, "element face {}\nproperty list uint uint vertex_indices", faces.len())?;
-    writeln!(text, "element vertex_name {}\nproperty list uint uchar bytes\nend_header", rows.len())?;
+    writeln!(
+        text,
+        "element vertex_name {}\nproperty list uint uchar bytes\nend_header",
+        rows.len()
+    )?;
     for (vertex, row) in scene.vertices.iter().zip(rows) {
         let words = numbers(vertex.position, row).map(|number| number.to_string());
         writeln!(text, "{}", words.join(" "))?;
@@ -124,7 +136,9 @@ fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
     let at = |corner: VertexId| scene.vertices[corner.index()].position;
     let corners = scene.face_corners(face);
     match ugpolygon::face_triangles(scene, face, at) {
-        Some(triangles) => triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect(),
+        Some(triangles) => {
+            triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect()
+        }
         None => vec![outline],
     }
 }

@@ -69,7 +69,8 @@ impl NearLamps {
             let intensity = lamp.color.max_element();
             Some(NearLamp { intensity, place, velocity, fall_off: lamp.fall_off })
         });
-        let shift = |(body, motion): (BodyId, &RelativeMotion)| motion.turned(frames.lamp_shift(body));
+        let shift =
+            |(body, motion): (BodyId, &RelativeMotion)| motion.turned(frames.lamp_shift(body));
         let near: Vec<NearLamp> = near.filter(|lamp| lamp.intensity > 0.0).collect();
         let are_sampled = !lamps.is_empty()
             && (lamps.iter().any(|lamp| !is_steady(&lamp))
@@ -77,7 +78,8 @@ impl NearLamps {
         Self {
             lamps: near,
             shifts: scene.bodies.ids().zip(motions).map(shift).collect(),
-            sampled: are_sampled.then(|| SampledLamps { lamps: lamps.clone(), frames: frames.clone() }),
+            sampled: are_sampled
+                .then(|| SampledLamps { lamps: lamps.clone(), frames: frames.clone() }),
             bound,
         }
     }
@@ -109,7 +111,8 @@ impl NearLamps {
     /// Does the light at the middle of a triangle jump against that at its corners?
     pub(crate) fn jumps_inside(&self, corners: [&Point; 3], motion: &RelativeMotion) -> bool {
         let Some(sampled) = &self.sampled else { return false };
-        corners.iter().all(|corner| corner.generation < MAX_GENERATION) && sampled.jumps(corners, motion)
+        corners.iter().all(|corner| corner.generation < MAX_GENERATION)
+            && sampled.jumps(corners, motion)
     }
 
     fn shift(&self, body: BodyId) -> DVec3 {
@@ -129,7 +132,8 @@ impl NearLamps {
             return false;
         }
         let shift = corners.clone().next().map_or(DVec3::ZERO, |corner| self.shift(corner.body));
-        let of_lamp = |lamp: &NearLamp| lamp.intensity * lamp.most_error(motion, corners.clone(), shift);
+        let of_lamp =
+            |lamp: &NearLamp| lamp.intensity * lamp.most_error(motion, corners.clone(), shift);
         self.lamps.iter().map(of_lamp).sum::<f64>() <= self.bound
     }
 }
@@ -177,7 +181,11 @@ impl NearLamp {
             Some(fall_off) if fall_off.is_outside(nearest) => 6.0 * fall_off.at(nearest),
             Some(_) => return f64::INFINITY,
         };
-        if nearest > 0.0 { bend / 2.0 * (reach / nearest) * (reach / nearest) } else { f64::INFINITY }
+        if nearest > 0.0 {
+            bend / 2.0 * (reach / nearest) * (reach / nearest)
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Its position in the rest frame of a body, if it rests there. `shift`: see
@@ -192,7 +200,11 @@ impl NearLamp {
     fn light(&self, rest: DVec3, motion: &RelativeMotion, shift: DVec3) -> Option<Light> {
         if let Some(place) = self.position_at_rest_with(motion, shift) {
             let part = self.part_at((place - rest).length());
-            return Some(Light { toward: (place - rest).try_normalize()? * part, doppler: 1.0, part });
+            return Some(Light {
+                toward: (place - rest).try_normalize()? * part,
+                doppler: 1.0,
+                part,
+            });
         }
         let light = illumination(rest, 0.0, motion.velocity(), self.place, self.velocity?)?;
         let part = self.part_at(light.rest_distance);
@@ -254,7 +266,8 @@ impl SampledLamps {
             None => (lamp.color.max_element(), 0.0),
             Some(table) => {
                 let own_time = element.lamp_time(lamp, lamp.place, &self.frames)?;
-                let level = |(row, share): (u32, f64)| share * self.lamps[row as usize].color.max_element();
+                let level =
+                    |(row, share): (u32, f64)| share * self.lamps[row as usize].color.max_element();
                 (table.at(own_time).map(level).iter().sum(), table.step(own_time))
             }
         };
@@ -299,7 +312,8 @@ impl SampledLamps {
 
 /// True if samples of a table do not show how the colour changes between two points.
 fn is_jump(lamp: &Lamp, a: Sample, b: Sample) -> bool {
-    let most = |table: &std::sync::Arc<uglight::LampTable>| if table.is_stepped() { 0.0 } else { 1.0 };
+    let most =
+        |table: &std::sync::Arc<uglight::LampTable>| if table.is_stepped() { 0.0 } else { 1.0 };
     lamp.table.as_ref().is_some_and(|table| (a.step - b.step).abs() > most(table))
 }
 
@@ -340,7 +354,12 @@ mod tests {
                 let off = level(from + s * (to - from)) - (1.0 - s) * level(from) - s * level(to);
                 assert!(off.abs() <= error + 1e-15, "{from} {to}: {off} {error}");
             }
-            let half = lamp.error(DVec3::X * from, DVec3::X * f64::midpoint(from, to), &motion, DVec3::ZERO);
+            let half = lamp.error(
+                DVec3::X * from,
+                DVec3::X * f64::midpoint(from, to),
+                &motion,
+                DVec3::ZERO,
+            );
             assert!(half < 0.6 * error, "{from} {to}: {half} {error}");
         }
         assert_eq!(lamp.error(DVec3::Z, DVec3::ZERO, &motion, DVec3::ZERO), 0.0);
@@ -395,20 +414,27 @@ mod tests {
         let place = DVec3::new(0.0, 0.0, 40.0);
         let lamp = NearLamp { intensity: 1.0, place, velocity: Some(velocity), fall_off: None };
         let (a, b) = (DVec3::new(-8.0, 0.0, 0.0), DVec3::new(8.0, 0.0, 0.0));
-        let doppler = |point| illumination(point, 0.0, Velocity::ZERO, place, velocity).unwrap().doppler;
+        let doppler =
+            |point| illumination(point, 0.0, Velocity::ZERO, place, velocity).unwrap().doppler;
         let off = |power: f64| {
             let light = |point| libm::pow(doppler(point), power);
             (0.5 * (light(a) + light(b)) / light(a.midpoint(b)) - 1.0).abs()
         };
         let error = lamp.error(a, b, &at_rest, DVec3::ZERO);
-        assert!(off(5.0) <= error && off(5.0) > 3.0 * off(1.0), "{} {} {error}", off(5.0), off(1.0));
+        assert!(
+            off(5.0) <= error && off(5.0) > 3.0 * off(1.0),
+            "{} {} {error}",
+            off(5.0),
+            off(1.0)
+        );
     }
 
     /// `is_surely_linear` is conservative.
     #[test]
     fn surely_linear_edges_are_linear() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
-        let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Default::default());
+        let motion =
+            RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Default::default());
         let (mut n_linear, mut n_nonlinear) = (0, 0);
         for k in 1..4000_u32 {
             let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
@@ -418,7 +444,8 @@ mod tests {
             let near_lamps = NearLamps { lamps: vec![lamp], bound: 1e-2, ..NearLamps::default() };
             let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
             let a = point(0.618_034, 0.414_214, 0.732_051);
-            let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
+            let corners =
+                [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
             let corners = corners.map(|corner| Point::new(&motion, BodyId::from_index(0), corner));
             if near_lamps.is_surely_linear(&motion, corners.iter()) {
                 n_linear += 1;

@@ -139,11 +139,11 @@ impl Outcome {
         lines.sort_by_key(|line| line.row);
         let old = std::mem::take(&mut scene.contours);
         let kept = |row: u32| {
-            let (whole, cut): (&[VertexId], &[u32]) = match lines.binary_search_by_key(&row, |line| line.row)
-            {
-                Ok(at) => (&[], &lines[at].corners),
-                Err(_) => (old.get(row), &[]),
-            };
+            let (whole, cut): (&[VertexId], &[u32]) =
+                match lines.binary_search_by_key(&row, |line| line.row) {
+                    Ok(at) => (&[], &lines[at].corners),
+                    Err(_) => (old.get(row), &[]),
+                };
             whole.iter().copied().chain(vertex_ids(cut))
         };
 
@@ -152,7 +152,10 @@ impl Outcome {
         let mut groups = self.pieces.chunk_by(|a, b| a.face == b.face).peekable();
         for (idx, face) in std::mem::take(&mut scene.faces).into_iter().enumerate() {
             let Some(group) = groups.next_if(|group| group[0].face as usize == idx) else {
-                faces.push(Face { contours: contours.push_all(face.contours.clone().map(kept)), ..face });
+                faces.push(Face {
+                    contours: contours.push_all(face.contours.clone().map(kept)),
+                    ..face
+                });
                 continue;
             };
             for piece in group {

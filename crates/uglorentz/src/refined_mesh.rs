@@ -97,11 +97,13 @@ impl<'a> RefinedMesh<'a> {
         let (&middle, behind) = from.split_first()?;
         let [a, b, at] = [low, high, middle].map(|row| self.point(row).rest);
         let part = ((at - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-        let row = self.add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
+        let row =
+            self.add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
         // The same bits as for the faces that have the vertex.
         let body = self.point(row).body;
         self.points[row as usize] = Point::new(self.motion_of(body), body, at);
-        for (end, part) in [(low, before.to_vec()), (high, behind.iter().rev().copied().collect())] {
+        for (end, part) in [(low, before.to_vec()), (high, behind.iter().rev().copied().collect())]
+        {
             if !part.is_empty() {
                 self.junctions.insert((end, row), part);
             }
@@ -120,7 +122,10 @@ impl<'a> RefinedMesh<'a> {
             let (low, high) = (self.point(key.0).rest, self.point(key.1).rest);
             let is_at_eye = low.midpoint(high).length() <= AT_EYE * (high - low).length();
             let part = if is_at_eye { BESIDE_MIDDLE } else { 0.5 };
-            self.add(Recipe { parents: [key.0, key.1, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] })
+            self.add(Recipe {
+                parents: [key.0, key.1, 0, 0],
+                weights: [1.0 - part, part, 0.0, 0.0],
+            })
         });
         self.middles.insert(key, row);
         if self.rims.contains(&key) {
@@ -152,15 +157,19 @@ impl<'a> RefinedMesh<'a> {
 
     /// A new vertex of the body of its first parent.
     pub(crate) fn add(&mut self, recipe: Recipe) -> u32 {
-        let used = || recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
+        let used =
+            || recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
         let rest = used().map(|(parent, weight)| self.point(parent).rest * weight).sum();
-        let generation = used().map(|(parent, _)| self.point(parent).generation).max().unwrap_or(0) + 1;
+        let generation =
+            used().map(|(parent, _)| self.point(parent).generation).max().unwrap_or(0) + 1;
         let body = self.point(recipe.parents[0]).body;
-        let row = u32::try_from(self.points.len()).expect("subdivision stops long before 2^32 vertices");
+        let row =
+            u32::try_from(self.points.len()).expect("subdivision stops long before 2^32 vertices");
         let point = Point::new(self.motion_of(body), body, rest);
         self.points.push(Point { generation, ..point });
         if !self.tables.is_empty() {
-            let parents: Vec<&Tables> = used().map(|(parent, _)| &self.tables[parent as usize]).collect();
+            let parents: Vec<&Tables> =
+                used().map(|(parent, _)| &self.tables[parent as usize]).collect();
             self.tables.push(tables::common(&parents));
         }
         self.recipes.push(recipe);

@@ -47,7 +47,16 @@ impl Point {
             1.0 / doppler_at(seen, motion.velocity())
         };
         let (own_time, generation) = (-rest_distance, 0);
-        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation }
+        Point {
+            rest,
+            seen,
+            rest_distance,
+            seen_distance,
+            inverse_doppler,
+            own_time,
+            body,
+            generation,
+        }
     }
 
     /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
@@ -58,12 +67,23 @@ impl Point {
             None => line.light(rest, Event::ORIGIN),
         };
         let (seen, inverse_doppler, own_time) = match light {
-            Ok(SeenLight { event, inverse_doppler, own_time }) => (event.x, inverse_doppler, own_time),
+            Ok(SeenLight { event, inverse_doppler, own_time }) => {
+                (event.x, inverse_doppler, own_time)
+            }
             Err(_) => (DVec3::NAN, f64::NAN, f64::NAN),
         };
         let seen_distance = seen.length();
         let rest_distance = seen_distance * inverse_doppler;
-        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation: 0 }
+        Point {
+            rest,
+            seen,
+            rest_distance,
+            seen_distance,
+            inverse_doppler,
+            own_time,
+            body,
+            generation: 0,
+        }
     }
 
     /// The point for the scene as seen.

@@ -15,8 +15,10 @@ use crate::{color, early_accept, edge_on, interior};
 /// The largest visible errors of all edges and faces of a subdivided scene.
 pub(crate) fn measure(scene: &Scene, mesh: &RefinedMesh, bounds: &Bounds) -> RemainingErrors {
     let meter = ErrorMeter { scene, mesh, bounds };
-    let faces = scene.faces.par_iter().map(|face| meter.face(face)).reduce(Errors::default, Errors::or);
-    let wires = scene.wires.par_iter().map(|wire| meter.wire(wire)).reduce(Errors::default, Errors::or);
+    let faces =
+        scene.faces.par_iter().map(|face| meter.face(face)).reduce(Errors::default, Errors::or);
+    let wires =
+        scene.wires.par_iter().map(|wire| meter.wire(wire)).reduce(Errors::default, Errors::or);
     let found = faces.or(wires);
     let largest = |(error, at): ErrorAt| {
         let name = |row: &u32| scene.names.get(scene.vertices[*row as usize].name).to_string();
@@ -84,12 +86,14 @@ impl ErrorMeter<'_, '_> {
     fn wire(&self, wire: &Wire) -> Errors {
         let contours = self.scene.wire_contours(wire);
         let ends = contours.flat_map(|corners| corners.windows(2));
-        ends.map(|pair| self.edge(pair[0].0, pair[1].0, Shown::All)).fold(Errors::default(), Errors::or)
+        ends.map(|pair| self.edge(pair[0].0, pair[1].0, Shown::All))
+            .fold(Errors::default(), Errors::or)
     }
 
     fn edge(&self, a: u32, b: u32, shown: Shown) -> Errors {
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
+        let (from, to, motion) =
+            (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         let shown = if self.mesh.is_rim(low, high) { Shown::All } else { shown };
         let errors = edge::errors(from, to, motion, shown, color::error);
         let light = self.bounds.near_lamps.error(from, to, motion);
@@ -131,7 +135,10 @@ impl ErrorMeter<'_, '_> {
         });
         let found = halves.map(|corners| {
             let points: [&Point; 3] = corners.map(|row| self.mesh.point(row));
-            Errors { depth: (interior::offset(motion, points), corners.map(Some)), ..Errors::default() }
+            Errors {
+                depth: (interior::offset(motion, points), corners.map(Some)),
+                ..Errors::default()
+            }
         });
         (found.fold(Errors::default(), Errors::or), shown)
     }

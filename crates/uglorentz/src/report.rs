@@ -64,7 +64,8 @@ impl Display for RemainingErrors {
         };
         write!(f, "outline {}{}, ", amount(self.angle.error * 1e3, "mrad"), place(&self.angle))?;
         write!(f, "depth {}{}, ", amount(self.depth.error * 1e3, "permille"), place(&self.depth))?;
-        let percent = |largest: &LargestError| amount(largest.error * 1e2, "percent") + &place(largest);
+        let percent =
+            |largest: &LargestError| amount(largest.error * 1e2, "percent") + &place(largest);
         write!(f, "Doppler factor {}", percent(&self.doppler))?;
         match &self.light {
             Some(light) => write!(f, ", light {}", percent(light)),

@@ -20,7 +20,8 @@ pub(crate) fn cut(scene: &mut Scene, config: &Config) -> Result<(), Error> {
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
     let mut trial = scene.clone();
-    let placed = PlacedBodies::move_to_camera_frame(&mut trial, &config.motion(), &camera, config.size)?;
+    let placed =
+        PlacedBodies::move_to_camera_frame(&mut trial, &config.motion(), &camera, config.size)?;
     let rest = placed.rest_positions(&trial);
     let sagitta = |row: usize, _: &Face, _: &RoundShape| {
         let face = &trial.faces[row];
@@ -28,7 +29,9 @@ pub(crate) fn cut(scene: &mut Scene, config: &Config) -> Result<(), Error> {
         let motion = &placed.motions[face.body.index()];
         Some(match motion.world_line() {
             Some(_) => ugscene::FINE_SAGITTA,
-            None => seen_sagitta(&round, DVec3::ZERO, error * least_doppler(&round, motion).min(1.0)),
+            None => {
+                seen_sagitta(&round, DVec3::ZERO, error * least_doppler(&round, motion).min(1.0))
+            }
         })
     };
     Ok(cut_rounds(scene, sagitta)?)

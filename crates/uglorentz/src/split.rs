@@ -9,11 +9,20 @@ use crate::pieces::Shape;
 use crate::refined_mesh::RefinedMesh;
 
 /// Halves the marked edges of a piece, or subdivides its inside if that is marked.
-pub(crate) fn split(mesh: &mut RefinedMesh, bounds: &Bounds, shape: &Shape, marks: Marks) -> Vec<Shape> {
+pub(crate) fn split(
+    mesh: &mut RefinedMesh,
+    bounds: &Bounds,
+    shape: &Shape,
+    marks: Marks,
+) -> Vec<Shape> {
     match *shape {
         Shape::Triangle(corners) => {
             let [a, b, c, _] = marks.edges;
-            if marks.inside { fan(mesh, corners) } else { split_triangle(mesh, bounds, corners, [a, b, c]) }
+            if marks.inside {
+                fan(mesh, corners)
+            } else {
+                split_triangle(mesh, bounds, corners, [a, b, c])
+            }
         }
         Shape::Quad(corners) => split_quad(mesh, bounds, corners, marks.edges),
     }
@@ -68,7 +77,12 @@ fn quarters(mesh: &mut RefinedMesh, bounds: &Bounds, [a, b, c]: [u32; 3]) -> [[u
 }
 
 /// `marks`: from each corner to the next.
-fn split_quad(mesh: &mut RefinedMesh, bounds: &Bounds, corners: [u32; 4], marks: [bool; 4]) -> Vec<Shape> {
+fn split_quad(
+    mesh: &mut RefinedMesh,
+    bounds: &Bounds,
+    corners: [u32; 4],
+    marks: [bool; 4],
+) -> Vec<Shape> {
     let [a, b, c, d] = corners;
     match marks {
         [true, true, true, true] if !has_right_diagonal(mesh, bounds, corners) => {
@@ -141,8 +155,10 @@ mod tests {
     #[test]
     fn inner_edges_have_the_smallest_errors() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
-        let motions =
-            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), ShownEffects::default())];
+        let motions = [RelativeMotion::new(
+            Velocity::from_beta(DVec3::X * 0.99).unwrap(),
+            ShownEffects::default(),
+        )];
         let bounds = Bounds::new(
             vec![Tolerance::new(1e-4, 1e-3)],
             (NearLamps::default(), Clocks::default()),
@@ -152,10 +168,14 @@ mod tests {
         let mut n_turned = 0;
         for k in 1..200_u32 {
             let corner = |p, q| DVec3::new(3.0 + step(k, p), step(k, q), 0.01);
-            let corners =
-                [corner(0.618_034, 0.414_214), corner(0.236_068, 0.645_751), corner(0.872_983, 0.123_106)];
-            let points =
-                corners.map(|corner| Point::new(&motions[0], BodyId::from_index(0), corner)).to_vec();
+            let corners = [
+                corner(0.618_034, 0.414_214),
+                corner(0.236_068, 0.645_751),
+                corner(0.872_983, 0.123_106),
+            ];
+            let points = corners
+                .map(|corner| Point::new(&motions[0], BodyId::from_index(0), corner))
+                .to_vec();
             let mut mesh = RefinedMesh::new(&motions, points);
             let marks = Marks { edges: [true, true, true, false], inside: false };
             let pieces = split(&mut mesh, &bounds, &Shape::Triangle([0, 1, 2]), marks);
@@ -173,11 +193,14 @@ mod tests {
             let shared: Vec<(u32, u32)> =
                 inner.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
             assert_eq!(shared.len(), 3);
-            let total =
-                |edges: &[(u32, u32)]| edges.iter().map(|&(a, b)| criterion.excess(a, b)).sum::<f64>();
+            let total = |edges: &[(u32, u32)]| {
+                edges.iter().map(|&(a, b)| criterion.excess(a, b)).sum::<f64>()
+            };
             // Each midpoint is between two corners, and opposite the third.
             let middles: Vec<u32> = (3..6).collect();
-            let across = |middle: u32| 3 - mesh.recipes[middle as usize - 3].parents[..2].iter().sum::<u32>();
+            let across = |middle: u32| {
+                3 - mesh.recipes[middle as usize - 3].parents[..2].iter().sum::<u32>()
+            };
             let round = [(3, 4), (4, 5), (3, 5)];
             let turned = middles.iter().map(|&middle| {
                 let others = round.iter().copied().filter(|&(a, b)| a == middle || b == middle);

@@ -24,7 +24,9 @@ pub(crate) fn common(tables: &[&Tables]) -> Tables {
     {
         return Tables::clone(first);
     }
-    let Some(fewest) = tables.iter().min_by_key(|tables| tables.len()) else { return Tables::default() };
+    let Some(fewest) = tables.iter().min_by_key(|tables| tables.len()) else {
+        return Tables::default();
+    };
     let is_common = |row: &&u32| tables.iter().all(|tables| tables.binary_search(row).is_ok());
     fewest.iter().filter(is_common).copied().collect()
 }

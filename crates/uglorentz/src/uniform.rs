@@ -40,7 +40,8 @@ pub(crate) fn cut(
 
     let n_edges: usize = lines.iter().map(|line| line.edges().count()).sum();
     let n = n as usize;
-    let n_pieces = shapes.len().saturating_mul(n.saturating_mul(n)).saturating_add(n_edges.saturating_mul(n));
+    let n_pieces =
+        shapes.len().saturating_mul(n.saturating_mul(n)).saturating_add(n_edges.saturating_mul(n));
     if n_pieces > MAX_PIECES {
         return Err(n_pieces);
     }
@@ -85,7 +86,8 @@ impl UniformSubdivision<'_, '_> {
         self.edges.insert((low, high), first);
         for step in 1..self.n {
             let part = step as f64 / self.n as f64;
-            self.mesh.add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
+            self.mesh
+                .add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
         }
         first + (k - 1) as u32
     }
@@ -93,8 +95,9 @@ impl UniformSubdivision<'_, '_> {
     /// Rows of vertices run along a → b, and follow each other along a → c.
     fn triangle(&mut self, [a, b, c]: [u32; 3]) -> Vec<Shape> {
         let n = self.n;
-        let rows: Vec<Vec<u32>> =
-            (0..=n).map(|j| (0..=n - j).map(|i| self.in_triangle([a, b, c], i, j)).collect()).collect();
+        let rows: Vec<Vec<u32>> = (0..=n)
+            .map(|j| (0..=n - j).map(|i| self.in_triangle([a, b, c], i, j)).collect())
+            .collect();
         let mut shapes = Vec::with_capacity(n * n);
         for (row, above) in rows.iter().zip(&rows[1..]) {
             for i in 0..above.len() {

@@ -28,9 +28,10 @@ pub(crate) fn refuse_vertices_at_eye(
     let mut used = scene.drawn().flat_map(|drawn| scene.contours.corners(drawn.contours));
     match used.find(|vertex| is_at_eye(&points[vertex.index()])) {
         None => Ok(()),
-        Some(vertex) => {
-            Err(Error::VertexAtEye { name: vertex_name(scene, vertex.index()), row: vertex.index() })
-        }
+        Some(vertex) => Err(Error::VertexAtEye {
+            name: vertex_name(scene, vertex.index()),
+            row: vertex.index(),
+        }),
     }
 }
 

@@ -44,7 +44,10 @@ pub(crate) fn is_surely_right<'a>(
         !deviation(a, b, &Point::between(motion, a, b, 0.5)).exceeds(bounds, SURE_MARGIN)
     };
     corners.clone().count() <= MOST_CORNERS
-        && corners.clone().enumerate().all(|(row, a)| corners.clone().skip(row + 1).all(|b| is_right(a, b)))
+        && corners
+            .clone()
+            .enumerate()
+            .all(|(row, a)| corners.clone().skip(row + 1).all(|b| is_right(a, b)))
 }
 
 /// Is an error of an edge above its bound?
@@ -55,7 +58,9 @@ pub(crate) fn exceeds(a: &Point, b: &Point, motion: &RelativeMotion, bounds: Dev
     let color = if is_short(a, b, bounds.tan_half) { f64::INFINITY } else { bounds.color };
     let bounds = Deviation { color, ..bounds };
     let bounds = bounds.above_rounding(a).above_rounding(b);
-    SAMPLES.into_iter().any(|s| deviation(a, b, &Point::between(motion, a, b, s)).exceeds(bounds, MARGIN))
+    SAMPLES
+        .into_iter()
+        .any(|s| deviation(a, b, &Point::between(motion, a, b, s)).exceeds(bounds, MARGIN))
         && !is_within_rounding(a, b)
 }
 
@@ -79,7 +84,8 @@ fn is_within_rounding(a: &Point, b: &Point) -> bool {
 /// The largest errors of an edge, sampled.
 pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion) -> Errors {
     let sampled = SAMPLES.map(|s| deviation(a, b, &Point::between(motion, a, b, s)));
-    let largest = |error: fn(&Deviation) -> f64| MARGIN * sampled.iter().map(error).fold(0.0, f64::max);
+    let largest =
+        |error: fn(&Deviation) -> f64| MARGIN * sampled.iter().map(error).fold(0.0, f64::max);
     Errors {
         angle: 2.0 * libm::atan(largest(|sample| sample.tan_half)),
         offset: largest(|sample| sample.offset),
@@ -129,7 +135,11 @@ fn deviation(a: &Point, b: &Point, true_point: &Point) -> Deviation {
     let doppler = mix(|point| 1.0 / point.inverse_doppler);
     let of_inverse = (inverse / true_point.inverse_doppler - 1.0).abs();
     let of_doppler = (doppler * true_point.inverse_doppler - 1.0).abs();
-    Deviation { tan_half, offset: off.length() / true_point.seen_distance, color: of_inverse.max(of_doppler) }
+    Deviation {
+        tan_half,
+        offset: off.length() / true_point.seen_distance,
+        color: of_inverse.max(of_doppler),
+    }
 }
 
 /// The tangent of half the angle x between two vectors, sin x/(1 + cos x). `product`: of their

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use ugscene::{
-    Camera, CameraOptions, Projection, RestFrames, RestPosition, Scene, SeenPosition, ShownEffects, View,
+    Camera, CameraOptions, Projection, RestFrames, RestPosition, Scene, SeenPosition, ShownEffects,
+    View,
 };
 
 /// Replaces the normals of moving bodies, which scenes store for the shapes at rest, by those of
@@ -23,7 +24,8 @@ pub(crate) fn see_normals(scene: &mut Scene) {
             continue;
         }
         // Lengths do not matter, and their squares may overflow.
-        let rest = frames.of(body).scene_from_boosted().inverse() * (rest / rest.abs().max_element());
+        let rest =
+            frames.of(body).scene_from_boosted().inverse() * (rest / rest.abs().max_element());
         let seen = SeenPosition(vertex.position - eye);
         vertex.normal = Some(geometry.seen_normal(RestPosition(rest), seen, frames.velocity(body)));
     }
@@ -40,7 +42,8 @@ pub(crate) fn complete_camera(scene: &mut Scene) {
     let Ok(view) = View::new(scene, &CameraOptions::default(), SHAPE) else { return };
     let [width, height] = SHAPE.map(f64::from);
     let corner = |x: f64, y: f64| view.point([x, y], 1.0);
-    let (across, down) = (corner(width, 0.0) - corner(0.0, 0.0), corner(0.0, height) - corner(0.0, 0.0));
+    let (across, down) =
+        (corner(width, 0.0) - corner(0.0, 0.0), corner(0.0, height) - corner(0.0, 0.0));
     let angle = |side: DVec3| 2.0 * libm::atan(side.length() / 2.0).to_degrees();
     scene.cameras = vec![Camera {
         eye: Some(view.eye),

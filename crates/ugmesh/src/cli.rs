@@ -186,10 +186,17 @@ fn is_file_or_new(path: &Path) -> bool {
 }
 
 /// Reads a file in the folder of the mesh. A mesh from a pipe has no folder.
-fn read_beside(context: &Context, mesh: Option<&Path>, name: &str, limit: u64) -> io::Result<Vec<u8>> {
+fn read_beside(
+    context: &Context,
+    mesh: Option<&Path>,
+    name: &str,
+    limit: u64,
+) -> io::Result<Vec<u8>> {
     match mesh.map(|mesh| mesh.parent().unwrap_or(Path::new(""))) {
         Some(folder) => context.read_named(&folder.join(name), limit),
-        None => Err(io::Error::other("standard input has no folder; name the mesh on the command line")),
+        None => {
+            Err(io::Error::other("standard input has no folder; name the mesh on the command line"))
+        }
     }
 }
 
@@ -199,8 +206,12 @@ impl Words for Error {
             return error.words();
         }
         let remedy = match self {
-            Self::UnknownFormat { foreign: None, .. } => "; give it with -if ug, obj, ply, stl, off or gltf",
-            Self::NothingToConvert => "; choose an output format with -dt obj, ply, gltf, glb or vtp",
+            Self::UnknownFormat { foreign: None, .. } => {
+                "; give it with -if ug, obj, ply, stl, off or gltf"
+            }
+            Self::NothingToConvert => {
+                "; choose an output format with -dt obj, ply, gltf, glb or vtp"
+            }
             Self::NotMesh => ", so -name has no effect; leave it out",
             Self::Overflow => "; choose another -scale or -fit",
             Self::OutOfRange => "; make the mesh smaller (-fit 1) or write PLY (-dt ply)",
@@ -228,7 +239,8 @@ pub fn main() -> ExitCode {
         let resolve_includes = |source| pipe::follow(source, &config.reading, context);
         let command_line = args.with_format(context.command_line(), config.target);
         let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
-        let input = MeshFile::new(read.name, read.text).with_history(pipe::origin(context), provenance);
+        let input =
+            MeshFile::new(read.name, read.text).with_history(pipe::origin(context), provenance);
         let input = input.with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),

@@ -50,8 +50,11 @@ pub use ugmeshfile::{Axis, MeshFormat, Problem};
 use ugmeshfile::{MeshScene, ReadFile};
 
 /// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+pub const PROVENANCE: Provenance<'static> = Provenance {
+    program: env!("CARGO_PKG_NAME"),
+    version: env!("CARGO_PKG_VERSION"),
+    command: None,
+};
 
 /// The options of a conversion.
 #[derive(Clone, Debug, Default)]
@@ -158,12 +161,12 @@ pub struct Converted {
 /// # Errors
 /// [`Error`] if the input is invalid, or if it cannot be converted with these options.
 pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
-    let format =
-        config.format.or_else(|| MeshFormat::detect(&input.name, &input.bytes)).ok_or_else(|| {
-            Error::UnknownFormat {
-                name: input.name.clone(),
-                foreign: ugmeshfile::foreign_data(&input.name, &input.bytes),
-            }
+    let format = config
+        .format
+        .or_else(|| MeshFormat::detect(&input.name, &input.bytes))
+        .ok_or_else(|| Error::UnknownFormat {
+            name: input.name.clone(),
+            foreign: ugmeshfile::foreign_data(&input.name, &input.bytes),
         })?;
     if format == MeshFormat::Ug && config.target == Target::Ug {
         return Err(Error::NothingToConvert);
@@ -232,7 +235,11 @@ type Files = Vec<(String, Arc<[u8]>)>;
 
 /// Names the pictures of a scene by files beside it; returns those to be written. Without such
 /// files they are where the mesh has them, from the current folder.
-fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>, mesh: &str) -> (Files, Option<String>) {
+fn pictures_of(
+    scene: &mut Scene,
+    files: Option<&PictureFiles>,
+    mesh: &str,
+) -> (Files, Option<String>) {
     let mut pictures: Files = Vec::new();
     let Some(PictureFiles { stem, is_beside_mesh }) = files else {
         ugparse::name_pictures(scene, mesh);
@@ -241,23 +248,26 @@ fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>, mesh: &str) -> (
         return (pictures, is_unnamed.then_some(note));
     };
     for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
-        let is_file =
-            image.row.is_none() && image.file.as_ref().is_some_and(|file| !file.contains(['"', '\n']));
+        let is_file = image.row.is_none()
+            && image.file.as_ref().is_some_and(|file| !file.contains(['"', '\n']));
         if *is_beside_mesh && is_file {
             continue;
         }
-        let row = pictures.iter().position(|(_, bytes)| *bytes == image.bytes).unwrap_or_else(|| {
-            let ending = match image.bytes[..] {
-                [0x89, ..] => "png",
-                [0xff, ..] => "jpg",
-                [b'#', ..] => "hdr",
-                [0x76, ..] => "exr",
-                _ => "pfm",
-            };
-            pictures
-                .push((format!("{stem}_texture{}.{ending}", pictures.len() + 1), Arc::clone(&image.bytes)));
-            pictures.len() - 1
-        });
+        let row =
+            pictures.iter().position(|(_, bytes)| *bytes == image.bytes).unwrap_or_else(|| {
+                let ending = match image.bytes[..] {
+                    [0x89, ..] => "png",
+                    [0xff, ..] => "jpg",
+                    [b'#', ..] => "hdr",
+                    [0x76, ..] => "exr",
+                    _ => "pfm",
+                };
+                pictures.push((
+                    format!("{stem}_texture{}.{ending}", pictures.len() + 1),
+                    Arc::clone(&image.bytes),
+                ));
+                pictures.len() - 1
+            });
         (image.file, image.row) = (Some(pictures[row].0.clone()), None);
     }
     (pictures, None)
@@ -271,7 +281,12 @@ fn place_mesh(config: &Config, format: MeshFormat, scene: &mut Scene) -> Result<
     let is_placed = read_up != write_up || config.size != Size::Same || config.is_centered;
     if is_placed {
         ugmeshfile::rotate(scene, |p| ugmeshfile::to_z_up(read_up, p));
-        placement::scale_and_center(scene, config.size, config.is_centered, config.target == Target::Ug)?;
+        placement::scale_and_center(
+            scene,
+            config.size,
+            config.is_centered,
+            config.target == Target::Ug,
+        )?;
         ugmeshfile::rotate(scene, |p| ugmeshfile::from_z_up(write_up, p));
     }
     Ok(is_placed)

@@ -42,7 +42,12 @@ impl PolygonMesh {
         note_count(&mut notes, n_labels, "label is left out", "labels are left out");
         note_count(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
         if !has_camera {
-            note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
+            note_count(
+                &mut notes,
+                scene.cameras.len(),
+                "camera is left out",
+                "cameras are left out",
+            );
         }
         if !has_textures && !scene.textures.is_empty() {
             notes.push("the format has no textures: their faces have a plain colour".to_string());
@@ -70,25 +75,35 @@ impl PolygonMesh {
         let mut rows: FxHashMap<(Option<&str>, Option<ColorId>), usize> = FxHashMap::default();
         for polygon in all.clone() {
             let face = &self.scene.faces[self.faces[polygon as usize] as usize];
-            let row = *rows.entry((face.name.map(text), face.color)).or_insert_with_key(|&(name, color)| {
-                let texture = color.and_then(|color| self.scene.texture_of(color)).cloned();
-                let emitted = color.and_then(|color| self.scene.emitted_by(color)).map(|color| {
-                    let light = RestColor::new(&self.scene, Some(color)).linear();
-                    (light.to_array(), self.scene.texture_of(color).cloned())
-                });
-                let color = color.map(|color| text(self.scene.colors[color.index()].name));
-                let [name, color] = [name, color].map(|name| name.map(str::to_string));
-                groups.push(Group { name, color, texture, emitted, polygons: Vec::new() });
-                groups.len() - 1
-            });
+            let row = *rows.entry((face.name.map(text), face.color)).or_insert_with_key(
+                |&(name, color)| {
+                    let texture = color.and_then(|color| self.scene.texture_of(color)).cloned();
+                    let emitted =
+                        color.and_then(|color| self.scene.emitted_by(color)).map(|color| {
+                            let light = RestColor::new(&self.scene, Some(color)).linear();
+                            (light.to_array(), self.scene.texture_of(color).cloned())
+                        });
+                    let color = color.map(|color| text(self.scene.colors[color.index()].name));
+                    let [name, color] = [name, color].map(|name| name.map(str::to_string));
+                    groups.push(Group { name, color, texture, emitted, polygons: Vec::new() });
+                    groups.len() - 1
+                },
+            );
             groups[row].polygons.push(polygon);
         }
         if groups.len() <= MAX {
             return groups;
         }
         let count = groups.len();
-        self.notes.push(format!("names of faces and colours are left out: {count} are more than {MAX}"));
-        vec![Group { name: None, color: None, texture: None, emitted: None, polygons: all.collect() }]
+        self.notes
+            .push(format!("names of faces and colours are left out: {count} are more than {MAX}"));
+        vec![Group {
+            name: None,
+            color: None,
+            texture: None,
+            emitted: None,
+            polygons: all.collect(),
+        }]
     }
 
     /// True if any vertex is transparent.
@@ -133,7 +148,11 @@ pub(crate) struct Group {
 /// The unit vector along `v`, which must not be 0. A vector that is already of unit length keeps
 /// its bits.
 fn unit(v: DVec3) -> DVec3 {
-    if (v.length_squared() - 1.0).abs() < 1e-6 { v } else { (v / v.abs().max_element()).normalize() }
+    if (v.length_squared() - 1.0).abs() < 1e-6 {
+        v
+    } else {
+        (v / v.abs().max_element()).normalize()
+    }
 }
 
 fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
@@ -152,7 +171,11 @@ fn leave_out_wires(scene: &mut Scene) {
     }
     let mut keeps = vec![true; scene.vertices.len()];
     for wire in scene.wires.drain(..) {
-        scene.contours.corners(wire.contours).iter().for_each(|corner| keeps[corner.index()] = false);
+        scene
+            .contours
+            .corners(wire.contours)
+            .iter()
+            .for_each(|corner| keeps[corner.index()] = false);
     }
     let of_faces = ugscene::face_vertices(scene, keeps.len());
     keeps.iter_mut().zip(of_faces).for_each(|(keeps, is_used)| *keeps |= is_used);
@@ -178,7 +201,8 @@ fn retain<T>(rows: &mut Vec<T>, keeps: &[bool]) {
 
 /// Duplicates vertices where faces of different colours meet, so that each vertex has one colour.
 fn separate_colors(scene: &mut Scene) {
-    let users: Vec<_> = scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
+    let users: Vec<_> =
+        scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
     ugscene::split_vertices(scene, &users, |vertex| vertex.color.is_none());
 }
 
@@ -205,7 +229,12 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
             [red, green, blue, 1.0 - color.translucency].map(|part| part.clamp(0.0, 1.0))
         })
         .collect();
-    note_count(notes, n_clipped, "colour brighter than 1 is clipped", "colours brighter than 1 are clipped");
+    note_count(
+        notes,
+        n_clipped,
+        "colour brighter than 1 is clipped",
+        "colours brighter than 1 are clipped",
+    );
     let color = |id: Option<ColorId>| id.map_or([1.0; 4], |id| palette[id.index()]);
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
 }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
-use ugscene::{Camera, CameraOptions, Light, LightKind, LightMotion, MotionOptions, Projection, Scene};
+use ugscene::{
+    Camera, CameraOptions, Light, LightKind, LightMotion, MotionOptions, Projection, Scene,
+};
 
 /// Adds the camera and the lights with which a scene without them is drawn.
 pub(crate) fn add(scene: &mut Scene) {

@@ -5,7 +5,8 @@ use rustc_hash::FxHashMap;
 use ugphysics::{linear_srgb_to_xyz, srgb_encode};
 use ugpipe::printable;
 use ugscene::{
-    Color, ColorId, ColorValue, Face, NameId, Scene, Texture, UniqueNames, Vertex, VertexId, unit_normal,
+    Color, ColorId, ColorValue, Face, NameId, Scene, Texture, UniqueNames, Vertex, VertexId,
+    unit_normal,
 };
 
 use crate::error::Problem;
@@ -137,10 +138,12 @@ impl Builder {
     ) -> ColorId {
         let clipped = rgba.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) + 0.0 });
         let name = scene_name(name);
-        let texture_key =
-            texture.as_ref().map_or(String::new(), |Texture { image, wrap, factor, alpha, .. }| {
+        let texture_key = texture.as_ref().map_or(
+            String::new(),
+            |Texture { image, wrap, factor, alpha, .. }| {
                 format!("{:?} {wrap:?} {factor:?} {alpha:?}", image.bytes.as_ptr())
-            });
+            },
+        );
         let key = (name, clipped.map(f64::to_bits), texture_key, emitted);
         if let Some(&known) = self.colors.get(&key) {
             return known;
@@ -175,9 +178,11 @@ impl Builder {
             return None;
         }
         let [red, green, blue] = factor.map(|part| part as f32);
-        let texture = picture.map(|(texture, _)| Texture { factor: [red, green, blue, 1.0], ..texture });
+        let texture =
+            picture.map(|(texture, _)| Texture { factor: [red, green, blue, 1.0], ..texture });
         let scale = most.max(1.0);
-        let name = if scale > 1.0 { format!("{name}_light_{most}") } else { format!("{name}_light") };
+        let name =
+            if scale > 1.0 { format!("{name}_light_{most}") } else { format!("{name}_light") };
         let [red, green, blue] = light.map(|part| srgb_encode(part / scale));
         let id = self.material(Rgba([red, green, blue, 1.0]), &name, texture, None);
         if scale > 1.0 {
@@ -189,14 +194,18 @@ impl Builder {
     /// True if a colour, or what it emits, is a picture.
     pub fn has_texture(&self, color: ColorId) -> bool {
         let emitted = self.scene.emitted_by(color);
-        [Some(color), emitted].into_iter().flatten().any(|color| self.scene.texture_of(color).is_some())
+        [Some(color), emitted]
+            .into_iter()
+            .flatten()
+            .any(|color| self.scene.texture_of(color).is_some())
     }
 
     /// The name of the following faces: that of their object or group. Nothing remains of a name
     /// without letters and digits.
     pub fn name_faces(&mut self, name: &str) {
         let name = scene_name(name);
-        self.face_name = (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]));
+        self.face_name =
+            (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]));
     }
 
     /// Counts corners toward the limit, also those of faces without area, which a small glTF file
@@ -204,7 +213,9 @@ impl Builder {
     pub fn count_corners(&mut self, n: usize) -> Result<(), Problem> {
         self.n_corners = self.n_corners.saturating_add(n);
         if self.n_corners > MAX_CORNERS {
-            return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
+            return Err(Problem::new(format!(
+                "more than {MAX_CORNERS} corners of faces; split the mesh"
+            )));
         }
         Ok(())
     }

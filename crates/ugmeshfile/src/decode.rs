@@ -7,7 +7,11 @@ use std::borrow::Cow;
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = String::from_utf8_lossy(bytes);
-    if has_lone_return(&text) { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text }
+    if has_lone_return(&text) {
+        text.replace("\r\n", "\n").replace('\r', "\n").into()
+    } else {
+        text
+    }
 }
 
 /// True if a carriage return is not the first byte of CRLF.

@@ -48,9 +48,9 @@ pub fn foreign_data(name: &str, bytes: &[u8]) -> Option<Foreign> {
     by_content(bytes).or_else(|| {
         let extension = Path::new(name).extension()?.to_str()?.to_ascii_lowercase();
         match extension.as_str() {
-            "3ds" | "3mf" | "abc" | "blend" | "bpt" | "c4d" | "dae" | "dxf" | "fbx" | "iges" | "igs"
-            | "lwo" | "ma" | "max" | "mb" | "pbrt" | "pov" | "skp" | "step" | "stp" | "usd" | "usda"
-            | "usdc" | "usdz" | "wrl" | "x3d" => Some(Foreign::Model),
+            "3ds" | "3mf" | "abc" | "blend" | "bpt" | "c4d" | "dae" | "dxf" | "fbx" | "iges"
+            | "igs" | "lwo" | "ma" | "max" | "mb" | "pbrt" | "pov" | "skp" | "step" | "stp"
+            | "usd" | "usda" | "usdc" | "usdz" | "wrl" | "x3d" => Some(Foreign::Model),
             "csv" | "tsv" => Some(Foreign::Table),
             _ => None,
         }

@@ -88,7 +88,8 @@ impl MeshFormat {
             let is_json = inside.trim_start().starts_with('"') && text.contains("\"asset\"");
             return Some(if is_json { Self::Gltf } else { Self::Ug });
         }
-        let line = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+        let line =
+            text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
         let mut words = line.split_whitespace();
         let first = words.next()?;
         if first.eq_ignore_ascii_case("solid") {

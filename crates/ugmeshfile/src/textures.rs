@@ -74,7 +74,8 @@ impl Textures {
 
     /// Warns of textures that cannot be read.
     pub fn warn(&self, builder: &mut Builder) {
-        let failed = self.loaded.iter().filter_map(|(name, texture)| Some((name, texture.as_ref().err()?)));
+        let failed =
+            self.loaded.iter().filter_map(|(name, texture)| Some((name, texture.as_ref().err()?)));
         for (name, reason) in failed {
             builder.warn(format!(
                 "texture `{}`: {reason}; its faces have the colour of their material",
@@ -104,9 +105,13 @@ fn mean(pixels: &Pixels) -> [f64; 3] {
     };
     match pixels {
         Pixels::Srgb(pixels) => {
-            let decoded: Vec<f64> = (0..=255).map(|byte| srgb_decode(f64::from(byte) / 255.0)).collect();
+            let decoded: Vec<f64> =
+                (0..=255).map(|byte| srgb_decode(f64::from(byte) / 255.0)).collect();
             for &[red, green, blue, alpha] in pixels {
-                add([red, green, blue].map(|byte| decoded[usize::from(byte)]), f64::from(alpha) / 255.0);
+                add(
+                    [red, green, blue].map(|byte| decoded[usize::from(byte)]),
+                    f64::from(alpha) / 255.0,
+                );
             }
         }
         Pixels::Light(pixels) => {

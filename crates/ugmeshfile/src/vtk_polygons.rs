@@ -73,14 +73,23 @@ impl VtkPolygons<'_> {
         }
         text.push_str(">\n");
         for (name, numbers) in scalars {
-            array(text, "Float64", name, 1, numbers.iter().flat_map(|x| x.to_le_bytes()).collect())?;
+            array(
+                text,
+                "Float64",
+                name,
+                1,
+                numbers.iter().flat_map(|x| x.to_le_bytes()).collect(),
+            )?;
         }
         for (name, rows) in vectors {
             write_vectors(text, name, rows)?;
         }
         text.push_str("</PointData>\n<Polys>\n");
-        let corners =
-            polygons.iter().flatten().flat_map(|corner| i64::from(corner.0).to_le_bytes()).collect();
+        let corners = polygons
+            .iter()
+            .flatten()
+            .flat_map(|corner| i64::from(corner.0).to_le_bytes())
+            .collect();
         array(text, "Int64", "connectivity", 1, corners)?;
         let mut end = 0;
         let ends = polygons.iter().flat_map(|polygon| {
@@ -118,7 +127,13 @@ fn write_vectors(text: &mut String, name: &str, rows: &[DVec3]) -> std::fmt::Res
     )
 }
 
-fn array(text: &mut String, kind: &str, name: &str, n_components: usize, bytes: Vec<u8>) -> std::fmt::Result {
+fn array(
+    text: &mut String,
+    kind: &str,
+    name: &str,
+    n_components: usize,
+    bytes: Vec<u8>,
+) -> std::fmt::Result {
     let length = (bytes.len() as u64).to_le_bytes();
     let content = BASE64_STANDARD.encode([&length[..], &bytes].concat());
     writeln!(

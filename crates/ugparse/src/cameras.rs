@@ -7,7 +7,12 @@ use crate::suggest::nearest;
 use crate::{Diagnostic, Diagnostics, Parsed, Setting, Source, Span};
 
 /// Puts the cameras of a scene in another order. `order`: the old row of each. `spans`: of all.
-pub(crate) fn reorder(scene: &mut Scene, passed_on: &mut PassedOn, spans: &mut Vec<Span>, order: &[usize]) {
+pub(crate) fn reorder(
+    scene: &mut Scene,
+    passed_on: &mut PassedOn,
+    spans: &mut Vec<Span>,
+    order: &[usize],
+) {
     scene.cameras = order.iter().map(|&row| scene.cameras[row].clone()).collect();
     *spans = order.iter().map(|&row| spans[row]).collect();
     for comment in &mut passed_on.comments {
@@ -25,7 +30,8 @@ impl Parsed {
     /// # Errors
     /// No camera has this name.
     pub fn choose_camera(&mut self, source: &Source, name: &str) -> Result<(), Diagnostics> {
-        let names = self.scene.cameras.iter().map(|camera| camera.name.map(|id| self.scene.names.get(id)));
+        let names =
+            self.scene.cameras.iter().map(|camera| camera.name.map(|id| self.scene.names.get(id)));
         let names: Vec<Option<&str>> = names.collect();
         let Some(chosen) = names.iter().position(|&other| other == Some(name)) else {
             return Err(Diagnostics::one(source, self.no_camera(name, &names)));

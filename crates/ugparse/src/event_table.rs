@@ -23,7 +23,8 @@ pub(crate) fn events(table: &Source) -> Result<Option<Vec<u8>>, Diagnostics> {
     let separator = if names.of(text).contains(&b',') { Some(b',') } else { None };
     let names = fields(text, names, separator);
     let column = |name: &[u8]| {
-        let mut rows = names.iter().enumerate().filter(|(_, field)| unquoted(field.of(text)) == name);
+        let mut rows =
+            names.iter().enumerate().filter(|(_, field)| unquoted(field.of(text)) == name);
         rows.next().map(|(row, _)| row).filter(|_| rows.next().is_none())
     };
     let [Some(t), Some(x), Some(y), Some(z)] = COLUMNS.map(column) else { return Ok(None) };
@@ -34,8 +35,11 @@ pub(crate) fn events(table: &Source) -> Result<Option<Vec<u8>>, Diagnostics> {
         let result = if fields.len() == names.len() {
             reading.row(line, [t, x, y, z].map(|column| fields[column]))
         } else {
-            let message = format!("{} fields where {} columns have names", fields.len(), names.len());
-            Err(Diagnostic::error(line, message).label("this line").help("write a number in each column"))
+            let message =
+                format!("{} fields where {} columns have names", fields.len(), names.len());
+            Err(Diagnostic::error(line, message)
+                .label("this line")
+                .help("write a number in each column"))
         };
         findings.extend(result.err());
         if findings.len() == MAX_ERRORS || reading.rows.len() > SampledPath::MOST_EVENTS {
@@ -58,16 +62,18 @@ pub(crate) fn events(table: &Source) -> Result<Option<Vec<u8>>, Diagnostics> {
 /// The error of a path. `row`: where an event is.
 pub(crate) fn impossible(error: &WorldLineError, row: impl Fn(usize) -> Span) -> Diagnostic {
     let between = |first: usize, message: &str| {
-        Diagnostic::error(row(first + 1), message).label("to this event").other(row(first), "from this one")
+        Diagnostic::error(row(first + 1), message)
+            .label("to this event")
+            .other(row(first), "from this one")
     };
     match *error {
-        WorldLineError::TooFast { row } => {
-            between(row, "between two events of a path the speed reaches that of light")
-                .help("rows that are nearer in space or farther in time, or more of them, keep it below 1")
-        }
-        WorldLineError::TimeOrder { row } => {
-            between(row, "the time of a path does not increase").help("sort the events by their times")
-        }
+        WorldLineError::TooFast { row } => between(
+            row,
+            "between two events of a path the speed reaches that of light",
+        )
+        .help("rows that are nearer in space or farther in time, or more of them, keep it below 1"),
+        WorldLineError::TimeOrder { row } => between(row, "the time of a path does not increase")
+            .help("sort the events by their times"),
         WorldLineError::FewEvents => {
             Diagnostic::error(row(0), "a path has fewer than two events").help("give two or more")
         }
@@ -90,7 +96,9 @@ impl Reading<'_> {
         if self.events.len() == SampledPath::MOST_EVENTS {
             self.rows.push(line);
             let message = format!("a table of more than {} events", SampledPath::MOST_EVENTS);
-            return Err(Diagnostic::error(line, message).label("the first too many").help("leave some out"));
+            return Err(Diagnostic::error(line, message)
+                .label("the first too many")
+                .help("leave some out"));
         }
         let mut numbers = [0.0; 4];
         for (value, field) in numbers.iter_mut().zip(fields) {
@@ -120,7 +128,11 @@ fn not_a_number(field: Span, word: &[u8]) -> Diagnostic {
     };
     let help = word_help("a number", word);
     let error = Diagnostic::error(field, message).label("here");
-    error.help(help.unwrap_or_else(|| "write a number in each of the columns `t`, `x`, `y` and `z`".into()))
+    error.help(
+        help.unwrap_or_else(|| {
+            "write a number in each of the columns `t`, `x`, `y` and `z`".into()
+        }),
+    )
 }
 
 fn unquoted(name: &[u8]) -> &[u8] {
@@ -130,7 +142,8 @@ fn unquoted(name: &[u8]) -> &[u8] {
 /// The fields of a line, between separators or, without one, between blanks.
 fn fields(text: &[u8], line: Span, separator: Option<u8>) -> Vec<Span> {
     let words = line.of(text);
-    let is_end = |byte: &u8| separator.map_or(byte.is_ascii_whitespace(), |separator| *byte == separator);
+    let is_end =
+        |byte: &u8| separator.map_or(byte.is_ascii_whitespace(), |separator| *byte == separator);
     let mut next = line.start;
     let fields = words.split(is_end).map(|field| {
         let start = next + (field.len() - field.trim_ascii_start().len()) as u32;

@@ -14,7 +14,11 @@ use crate::{Parsed, Source};
 pub const FLAT: f64 = 1e-3;
 
 /// A single warning for all that are not flat.
-pub(crate) fn bent_warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> Option<Diagnostic> {
+pub(crate) fn bent_warning(
+    source: &Source,
+    origins: &Origins,
+    bent: &[BentFace],
+) -> Option<Diagnostic> {
     let mut warned = bent.iter().filter(|face| face.thickness > FLAT);
     let first = warned.next()?;
     let span = origins.faces[first.row];
@@ -27,8 +31,11 @@ pub(crate) fn bent_warning(source: &Source, origins: &Origins, bent: &[BentFace]
     };
     let place = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
     let label = format!("a corner is off by {:.1e} of its size", first.thickness);
-    let help = "cut it into triangles: it is drawn as triangles, perhaps not as those that are meant";
-    Some(Diagnostic::warning(place, format!("face{shown}{others} not flat")).label(label).help(help))
+    let help =
+        "cut it into triangles: it is drawn as triangles, perhaps not as those that are meant";
+    Some(
+        Diagnostic::warning(place, format!("face{shown}{others} not flat")).label(label).help(help),
+    )
 }
 
 /// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are

@@ -9,7 +9,9 @@ use ugscene::{BodyId, ColorId, Face, Vertex, VertexId};
 use crate::numbered::Name;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, number32, short_decimal};
+use crate::token::{
+    begins_identifier, ends_word, is_blank, is_identifier, number, number32, short_decimal,
+};
 
 /// Parses `v ID x y z [color] [(u v)] ;` or `f [ID] contours [color] [< x y z >] ;` at `start` and
 /// returns the position after it; `None` for everything else.
@@ -43,7 +45,8 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
     cursor.skip_blank();
     let name = cursor.identifier();
     let first = scope.contours.len();
-    let Some((color, body)) = contours(&mut cursor, scope).and_then(|()| tail(&mut cursor, scope)) else {
+    let Some((color, body)) = contours(&mut cursor, scope).and_then(|()| tail(&mut cursor, scope))
+    else {
         scope.contours.truncate(first);
         return None;
     };
@@ -83,9 +86,11 @@ fn contours<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<()> {
 /// `[color] [< x y z >] ;`: what of it is known is added even if the rest is not as simple.
 #[inline(always)]
 fn tail<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<(Option<ColorId>, BodyId)> {
-    let color = cursor.identifier().map(|color| ColorId::from_index(scope.colors.names.enter(color)));
+    let color =
+        cursor.identifier().map(|color| ColorId::from_index(scope.colors.names.enter(color)));
     cursor.skip_blank();
-    let body = if cursor.next_is(b'<') { motion(cursor, scope)? } else { scope.bodies.bodies.unstated() };
+    let body =
+        if cursor.next_is(b'<') { motion(cursor, scope)? } else { scope.bodies.bodies.unstated() };
     cursor.mark(b';')?;
     Some((color, body))
 }

@@ -24,5 +24,8 @@ pub(crate) fn error(source: &Source) -> Option<Diagnostic> {
             ("a mesh".to_owned(), remedies::convert_mesh(file))
         }
     };
-    Some(Diagnostic::error(Span::default(), format!("this is not a UniGrafix scene but {what}")).help(help))
+    Some(
+        Diagnostic::error(Span::default(), format!("this is not a UniGrafix scene but {what}"))
+            .help(help),
+    )
 }

@@ -84,7 +84,8 @@ pub fn include(
 fn may_have_requests(text: &[u8]) -> bool {
     let has_word = |word: &str| memchr::memmem::find(text, word.as_bytes()).is_some();
     // Programs write the events of a path in parentheses.
-    let names_a_file = |at: usize| !matches!(text[at + PATH.len()..].trim_ascii_start(), [b'(' | b'<', ..]);
+    let names_a_file =
+        |at: usize| !matches!(text[at + PATH.len()..].trim_ascii_start(), [b'(' | b'<', ..]);
     ["include", "execute", "c_tex"].into_iter().any(has_word)
         || memchr::memmem::find_iter(text, PATH).any(names_a_file)
 }
@@ -155,7 +156,8 @@ impl Inclusion<'_> {
                 self.mark();
                 continue;
             };
-            self.out.extend_from_slice(&text.source.text[text.n_done..statement.span.start as usize]);
+            self.out
+                .extend_from_slice(&text.source.text[text.n_done..statement.span.start as usize]);
             text.n_replaced += 1;
             text.n_done = statement.span.end as usize;
             match statement.kind {
@@ -184,10 +186,13 @@ impl Inclusion<'_> {
         }
         let motion = statement.motion.map_or(Vec::new(), |motion| motion.of(&source.text).to_vec());
         let (path, text) = self.fetch(statement)?;
-        let table = Source { mesh: Some(Box::new(None)), ..Source::new(path.display().to_string(), text) };
+        let table =
+            Source { mesh: Some(Box::new(None)), ..Source::new(path.display().to_string(), text) };
         let Some(events) = event_table::events(&table)? else {
-            let message = format!("file `{}` is not a table of events", self.source().slice(statement.file));
-            let help = "its first line names the columns `t`, `x`, `y` and `z`, with commas between them";
+            let message =
+                format!("file `{}` is not a table of events", self.source().slice(statement.file));
+            let help =
+                "its first line names the columns `t`, `x`, `y` and `z`, with commas between them";
             return Err(self.refused(statement, message, help));
         };
         self.out.extend_from_slice(&events);
@@ -233,7 +238,8 @@ impl Inclusion<'_> {
             Some(row) => ugmeshfile::picture_within(file, row as usize).map(Arc::from),
             None => Ok(Arc::clone(file)),
         };
-        let checked = picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
+        let checked =
+            picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
         checked.map_err(|problem| {
             let help = match statement.row {
                 Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
@@ -245,7 +251,12 @@ impl Inclusion<'_> {
     }
 
     #[cfg(not(feature = "cli"))]
-    fn picture(&self, _: RequestStatement, file: &Arc<[u8]>, _: &Path) -> Result<Arc<[u8]>, Diagnostics> {
+    fn picture(
+        &self,
+        _: RequestStatement,
+        file: &Arc<[u8]>,
+        _: &Path,
+    ) -> Result<Arc<[u8]>, Diagnostics> {
         Ok(Arc::clone(file))
     }
 
@@ -255,7 +266,12 @@ impl Inclusion<'_> {
     }
 
     /// An error at a request in the innermost open text.
-    fn refused(&self, statement: RequestStatement, message: impl Into<String>, help: &str) -> Diagnostics {
+    fn refused(
+        &self,
+        statement: RequestStatement,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Diagnostics {
         Diagnostics::one(self.source(), finding(statement, message).help(help))
     }
 
@@ -309,7 +325,11 @@ impl Inclusion<'_> {
 
     /// The file itself, or the statements of a mesh, which stand for it.
     #[cfg(feature = "cli")]
-    fn statements(&mut self, file: Source, statement: RequestStatement) -> Result<Source, Diagnostics> {
+    fn statements(
+        &mut self,
+        file: Source,
+        statement: RequestStatement,
+    ) -> Result<Source, Diagnostics> {
         let Some(format) = ugmeshfile::MeshFormat::detect_mesh(&file.name, &file.text) else {
             return Ok(file);
         };
@@ -341,7 +361,9 @@ impl Inclusion<'_> {
     fn not_a_scene(&self, statement: RequestStatement) -> Diagnostics {
         let shown = self.source().slice(statement.file);
         let text = match statement.kind {
-            RequestKind::Include | RequestKind::Path | RequestKind::Image => format!("file `{shown}`"),
+            RequestKind::Include | RequestKind::Path | RequestKind::Image => {
+                format!("file `{shown}`")
+            }
             RequestKind::Execute => format!("the output of `{shown}`"),
         };
         let help = "it must begin with a statement or a comment, or be a mesh; errors in it are shown if it is read by itself";
@@ -363,18 +385,24 @@ impl Inclusion<'_> {
             ));
         }
         let is_image = statement.kind == RequestKind::Image;
-        let (limit, n_before) =
-            if is_image { (Limit::Memory, self.n_image_bytes) } else { (Limit::Text, self.n_bytes) };
+        let (limit, n_before) = if is_image {
+            (Limit::Memory, self.n_image_bytes)
+        } else {
+            (Limit::Text, self.n_bytes)
+        };
         let most = if is_image { MOST_IMAGE_BYTES } else { u64::MAX };
         let room = limits.get(limit).saturating_sub(n_before).min(most);
         let kind = statement.kind;
-        let text = (self.loader)(&Request { kind, path: &path, room })
-            .map_err(|error| self.refused(statement, complaint(kind, &path, &error), remedy(kind, &error)))?;
+        let text = (self.loader)(&Request { kind, path: &path, room }).map_err(|error| {
+            self.refused(statement, complaint(kind, &path, &error), remedy(kind, &error))
+        })?;
         if text.len() as u64 > room {
             let what = if is_image { "picture" } else { "text" };
             let message = format!("with the {what} of `{shown}` the scene is too large");
             if room == MOST_IMAGE_BYTES {
-                let help = format!("a file of a picture may have {MOST_IMAGE_BYTES} bytes; make it smaller");
+                let help = format!(
+                    "a file of a picture may have {MOST_IMAGE_BYTES} bytes; make it smaller"
+                );
                 return Err(self.refused(statement, message, &help));
             }
             return Err(self.limited(statement, &message, limit, "split it"));

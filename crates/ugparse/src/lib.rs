@@ -120,7 +120,8 @@ pub struct Parsed {
 /// # Errors
 /// All errors in the text, up to [`MAX_ERRORS`].
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
-    let (parsed, origin) = with_origin(source.origin.as_ref(), &source.text, || parse_text(source, options));
+    let (parsed, origin) =
+        with_origin(source.origin.as_ref(), &source.text, || parse_text(source, options));
     let mut parsed = parsed?;
     parsed.scene.head.origin = origin;
     Ok(parsed)
@@ -156,14 +157,20 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     );
     refuse_errors(source, &mut findings)?;
 
-    let (scene, passed_on, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);
+    let (scene, passed_on, origins) =
+        expand::expand(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
     Ok(Parsed { passed_on, ..Parsed::new(source, scene, origins, findings) })
 }
 
 impl Parsed {
     /// A scene that was read from `source`.
-    fn new(source: &Source, mut scene: Scene, origins: Origins, mut findings: Vec<Diagnostic>) -> Self {
+    fn new(
+        source: &Source,
+        mut scene: Scene,
+        origins: Origins,
+        mut findings: Vec<Diagnostic>,
+    ) -> Self {
         scene.faces.iter_mut().zip(0..).for_each(|(face, row)| face.row_as_read = row);
         let bent = ugscene::bent_faces(&scene);
         findings.extend(face_warnings::bent_warning(source, &origins, &bent));
@@ -176,7 +183,10 @@ impl Parsed {
 fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
     if source.text.len() as u64 > options.limits.get(Limit::Text) {
         let finding = Diagnostic::error(Span::default(), "the scene is too large");
-        return Err(Diagnostics::one(source, finding.limited(&options.limits, Limit::Text, "split it")));
+        return Err(Diagnostics::one(
+            source,
+            finding.limited(&options.limits, Limit::Text, "split it"),
+        ));
     }
     Ok(())
 }

@@ -40,11 +40,14 @@ fn beside(
     load: &mut dyn FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
 ) -> io::Result<Vec<u8>> {
     if source.name.starts_with('<') {
-        return Err(io::Error::other("standard input has no folder; name the mesh on the command line"));
+        return Err(io::Error::other(
+            "standard input has no folder; name the mesh on the command line",
+        ));
     }
     let path = Path::new(&source.name).parent().unwrap_or(Path::new("")).join(name);
     // One byte more than the room is read.
-    let request = Request { kind: RequestKind::Include, path: &path, room: limit.saturating_sub(1) };
+    let request =
+        Request { kind: RequestKind::Include, path: &path, room: limit.saturating_sub(1) };
     load(&request).map_err(|error| match error {
         RequestError::System(error) => error,
         RequestError::Failed { status, .. } => io::Error::other(status),
@@ -53,14 +56,18 @@ fn beside(
 
 fn malformed(source: &Source, format: MeshFormat, Problem { line, what }: Problem) -> Diagnostic {
     let lines = LineSpans::new(&source.text);
-    let span = line.map_or(Span::WHOLE_FILE, |line| lines.span(u32::try_from(line).unwrap_or(u32::MAX)));
+    let span =
+        line.map_or(Span::WHOLE_FILE, |line| lines.span(u32::try_from(line).unwrap_or(u32::MAX)));
     Diagnostic::error(span, format!("cannot read this as {format}: {what}"))
 }
 
 fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let origins = origins(source, &mesh.lines);
-    let findings =
-        mesh.warnings.iter().map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone())).collect();
+    let findings = mesh
+        .warnings
+        .iter()
+        .map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone()))
+        .collect();
     let mut scene = mesh.z_up(format.up());
     name_pictures(&mut scene, &source.name);
     Parsed::new(source, scene, origins, findings)
@@ -80,8 +87,9 @@ struct LineSpans<'t> {
 
 impl<'t> LineSpans<'t> {
     fn new(text: &'t [u8]) -> Self {
-        let is_end =
-            |idx: usize| text[idx] == b'\n' || (text[idx] == b'\r' && text.get(idx + 1) != Some(&b'\n'));
+        let is_end = |idx: usize| {
+            text[idx] == b'\n' || (text[idx] == b'\r' && text.get(idx + 1) != Some(&b'\n'))
+        };
         let ends = memchr::memchr2_iter(b'\n', b'\r', text).filter(|&idx| is_end(idx));
         Self { text, starts: std::iter::once(0).chain(ends.map(|idx| idx as u32 + 1)).collect() }
     }

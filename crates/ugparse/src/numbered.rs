@@ -26,8 +26,10 @@ impl<'t> Name<'t> {
         let digits = text.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
         let stem = text.len() - digits;
         // If this is not a valid number, `with_number` ignores it.
-        let number =
-            text[stem..].iter().take(MAX_DIGITS).fold(0, |sum, digit| sum * 10 + u32::from(digit - b'0'));
+        let number = text[stem..]
+            .iter()
+            .take(MAX_DIGITS)
+            .fold(0, |sum, digit| sum * 10 + u32::from(digit - b'0'));
         Self::with_number(text, stem, number)
     }
 

@@ -29,7 +29,9 @@ impl Origin {
     pub fn words(&self, bytes: &[u8]) -> String {
         match self {
             Self::Recorded(words) => words.clone(),
-            Self::Pending { name, alone: None, sha256 } => format!("SHA-256 {} {name}", sha256(bytes)),
+            Self::Pending { name, alone: None, sha256 } => {
+                format!("SHA-256 {} {name}", sha256(bytes))
+            }
             Self::Pending { name, alone: Some(alone), sha256 } => {
                 format!("SHA-256 {alone} including {} {name}", sha256(bytes))
             }
@@ -40,7 +42,9 @@ impl Origin {
     #[must_use]
     pub fn including(self, bytes: &[u8]) -> Self {
         match self {
-            Self::Pending { name, sha256, .. } => Self::Pending { name, alone: Some(sha256(bytes)), sha256 },
+            Self::Pending { name, sha256, .. } => {
+                Self::Pending { name, alone: Some(sha256(bytes)), sha256 }
+            }
             recorded => recorded,
         }
     }

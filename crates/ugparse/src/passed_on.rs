@@ -73,7 +73,9 @@ impl PassedOn {
                 Item::Vertex(name) => Item::Vertex(*vertex_rows.get(&name)?),
                 Item::Face(row) => match first_piece(row)..first_piece(row + 1) {
                     pieces if pieces.is_empty() => return None,
-                    pieces => Item::Face(if comment.trailing { pieces.end - 1 } else { pieces.start }),
+                    pieces => {
+                        Item::Face(if comment.trailing { pieces.end - 1 } else { pieces.start })
+                    }
                 },
                 at => at,
             };

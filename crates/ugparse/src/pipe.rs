@@ -4,7 +4,9 @@
 use ugpipe::{CommonArgs, Context, Failure};
 
 use crate::origin::has_history;
-use crate::{Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, RequestKind, Source};
+use crate::{
+    Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, RequestKind, Source,
+};
 
 /// The parsing options among the common options of a program.
 ///
@@ -85,6 +87,7 @@ pub fn refused(findings: Diagnostics) -> Failure {
 /// standard input, which no file name refers to.
 pub fn unnamed_textures(scene: &ugscene::Scene) -> Option<&'static str> {
     let is_unnamed = |texture: &ugscene::Texture| texture.image.file.is_none();
-    let note = "textures within a mesh on standard input are left out; name its file on the command line";
+    let note =
+        "textures within a mesh on standard input are left out; name its file on the command line";
     scene.textures.iter().any(is_unnamed).then_some(note)
 }

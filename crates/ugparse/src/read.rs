@@ -17,7 +17,11 @@ use crate::{Diagnostic, Diagnostics, Options, Parsed, Source};
 ///
 /// # Errors
 /// See [`crate::parse`] and [`Parsed::choose_camera`].
-pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<Parsed, Diagnostics> {
+pub fn read(
+    source: &Source,
+    options: &Options,
+    camera: Option<&str>,
+) -> Result<Parsed, Diagnostics> {
     let mut parsed = crate::parse(source, options)?;
     if let Some(name) = camera {
         parsed.choose_camera(source, name)?;
@@ -41,7 +45,9 @@ impl Parsed {
     /// There are too many.
     pub fn cut_rounds(&mut self, source: &Source, eye: Option<DVec3>) -> Result<(), Diagnostics> {
         let Self { scene, origins, .. } = self;
-        let Some(first) = scene.faces.iter().find(|face| face.shape.is_round()) else { return Ok(()) };
+        let Some(first) = scene.faces.iter().find(|face| face.shape.is_round()) else {
+            return Ok(());
+        };
         let span = origins.face(first).unwrap_or_default();
         let n_vertices = scene.vertices.len();
         ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
@@ -70,7 +76,8 @@ fn cut_faces(scene: &mut Scene, rows: &[usize]) {
 /// The triangles of a face, as contours; `None` if it intersects itself.
 fn triangles(scene: &mut Scene, face: &Face) -> Option<impl Iterator<Item = Range<u32>> + use<>> {
     let corners: Vec<VertexId> = scene.face_corners(face).to_vec();
-    let triangles = ugpolygon::face_triangles(scene, face, |vertex| scene.vertices[vertex.index()].position)?;
+    let triangles =
+        ugpolygon::face_triangles(scene, face, |vertex| scene.vertices[vertex.index()].position)?;
     let cut = triangles.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
     let rows = scene.contours.push_all(cut);
     Some(rows.map(|row| row..row + 1))

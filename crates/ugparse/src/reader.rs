@@ -12,8 +12,8 @@ use crate::scope::Scope;
 use crate::source::{LineMark, Span};
 use crate::statement::{FileStatement, NameKind, PathStatement, Statement};
 use crate::token::{
-    FILE_NAME, Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier,
-    integer, line_end, mark, skip_statement, wanted, without_mark, word,
+    FILE_NAME, Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found,
+    identifier, integer, line_end, mark, skip_statement, wanted, without_mark, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -58,7 +58,11 @@ pub(crate) struct RequestStatement {
 
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
 /// are too many.
-pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
+pub(crate) fn read<'t>(
+    text: &'t [u8],
+    options: &Options,
+    findings: &mut Vec<Diagnostic>,
+) -> Document<'t> {
     let mut reader = Reader {
         text,
         document: Document { scopes: vec![Scope::for_text(text.len())], ..Document::default() },
@@ -179,8 +183,8 @@ impl<'t> Reader<'t, '_> {
             self.pass_on(input, rest);
             return Ok(rest);
         }
-        let (body, keyword) =
-            word(input).map_err(|_| SyntaxError { at: input, reason: Reason::Expected("a statement") })?;
+        let (body, keyword) = word(input)
+            .map_err(|_| SyntaxError { at: input, reason: Reason::Expected("a statement") })?;
         match keyword {
             b"def" => self.begin_definition(input, body),
             b"end" => self.end_definition(input, body),
@@ -197,7 +201,12 @@ impl<'t> Reader<'t, '_> {
         }
     }
 
-    fn plain_statement(&mut self, input: Input<'t>, keyword: Input<'t>, body: Input<'t>) -> Rest<'t> {
+    fn plain_statement(
+        &mut self,
+        input: Input<'t>,
+        keyword: Input<'t>,
+        body: Input<'t>,
+    ) -> Rest<'t> {
         let row = self.open[self.open.len() - 1];
         self.names.clear();
         let scope = &mut self.document.scopes[row];
@@ -209,9 +218,13 @@ impl<'t> Reader<'t, '_> {
         let (rest, ()) = mark(b';', "`;`")(rest)?;
         let span = self.span(input, rest);
         let request = match &statement {
-            Statement::Texture(texture, file) => Some((RequestKind::Image, *file, None, texture.image.row)),
+            Statement::Texture(texture, file) => {
+                Some((RequestKind::Image, *file, None, texture.image.row))
+            }
             Statement::Motion(motion) => match motion.path {
-                Some(PathStatement::File(file)) => Some((RequestKind::Path, file, Some(motion.name), None)),
+                Some(PathStatement::File(file)) => {
+                    Some((RequestKind::Path, file, Some(motion.name), None))
+                }
                 _ => None,
             },
             _ => None,
@@ -226,7 +239,12 @@ impl<'t> Reader<'t, '_> {
     }
 
     /// Passes on an unknown statement unchanged, or refuses it.
-    fn unknown_statement(&mut self, input: Input<'t>, keyword: Input<'t>, body: Input<'t>) -> Rest<'t> {
+    fn unknown_statement(
+        &mut self,
+        input: Input<'t>,
+        keyword: Input<'t>,
+        body: Input<'t>,
+    ) -> Rest<'t> {
         if !self.options.lax {
             return Err(SyntaxError { at: input, reason: Reason::Expected("a statement") });
         }
@@ -262,8 +280,11 @@ impl<'t> Reader<'t, '_> {
         let (body, behind) = body.split_at(line_end(body));
         let (rest, line) = integer(body).ok()?;
         let rest = rest.trim_ascii();
-        let name =
-            if rest.is_empty() { None } else { Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1) };
+        let name = if rest.is_empty() {
+            None
+        } else {
+            Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1)
+        };
         let behind = behind.strip_prefix(b"\r\n").unwrap_or(behind.get(1..).unwrap_or_default());
         let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
         Some((behind, LineMark { start: self.position(behind), line: line as usize, name }))
@@ -359,7 +380,11 @@ impl<'t> Reader<'t, '_> {
 
     /// Finds a statement that begins on its own line behind the first word of `input`, while words
     /// are `within`.
-    fn statement_within(&self, input: Input<'t>, within: impl Fn(Input<'t>) -> bool) -> Option<Next<'t>> {
+    fn statement_within(
+        &self,
+        input: Input<'t>,
+        within: impl Fn(Input<'t>) -> bool,
+    ) -> Option<Next<'t>> {
         let mut words = Words { rest: input };
         let mut end = words.next()?.behind;
         for word in words.take_while(|word| within(word.at)) {
@@ -391,12 +416,16 @@ impl<'t> Reader<'t, '_> {
     fn report_missing_end(&mut self, statement: Input<'t>, next: &Next<'t>) {
         let place = self.position(next.end);
         let message = format!("expected {} before the next statement", next.wanted);
-        let finding =
-            Diagnostic::error(Span { start: place, end: place }, message).label("it is missing here");
+        let finding = Diagnostic::error(Span { start: place, end: place }, message)
+            .label("it is missing here");
         self.report(with_usage(finding, statement));
     }
 
-    fn report_syntax_error(&mut self, syntax_error: &SyntaxError<'t>, statement: Option<Input<'t>>) {
+    fn report_syntax_error(
+        &mut self,
+        syntax_error: &SyntaxError<'t>,
+        statement: Option<Input<'t>>,
+    ) {
         let at = skip_blank(syntax_error.at);
         let start = self.position(at);
         let what = found(at);
@@ -406,13 +435,15 @@ impl<'t> Reader<'t, '_> {
             Reason::Expected("a statement") => no_statement(what, span),
             Reason::Expected(wanted) => {
                 let finding = if what.is_empty() {
-                    let end =
-                        statement.map_or(at, |input| Words { rest: input }.last().map_or(at, |w| w.behind));
+                    let end = statement
+                        .map_or(at, |input| Words { rest: input }.last().map_or(at, |w| w.behind));
                     let start = self.position(end);
                     let message = format!("expected {wanted}, found the end of the file");
-                    Diagnostic::error(Span { start, end: start }, message).label("the text ends here")
+                    Diagnostic::error(Span { start, end: start }, message)
+                        .label("the text ends here")
                 } else {
-                    Diagnostic::error(span, format!("expected {wanted}, found {shown}")).label("here")
+                    Diagnostic::error(span, format!("expected {wanted}, found {shown}"))
+                        .label("here")
                 };
                 match (word_help(wanted, what), statement) {
                     (Some(help), _) => finding.help(help),
@@ -420,14 +451,21 @@ impl<'t> Reader<'t, '_> {
                     (None, None) => finding,
                 }
             }
-            Reason::NotFinite => Diagnostic::error(span, format!("the number {shown} is too large"))
-                .label("not finite")
-                .help("numbers reach up to about 1.8e308"),
+            Reason::NotFinite => {
+                Diagnostic::error(span, format!("the number {shown} is too large"))
+                    .label("not finite")
+                    .help("numbers reach up to about 1.8e308")
+            }
             Reason::Unclosed(kind) => {
                 let close = if kind == "comment" { '}' } else { ')' };
-                Diagnostic::error(Span { start, end: start + 1 }, format!("this {kind} is not closed"))
-                    .label("opened here")
-                    .help(format!("add `{close}`; {kind}s nest, so every one opened inside needs its own"))
+                Diagnostic::error(
+                    Span { start, end: start + 1 },
+                    format!("this {kind} is not closed"),
+                )
+                .label("opened here")
+                .help(format!(
+                    "add `{close}`; {kind}s nest, so every one opened inside needs its own"
+                ))
             }
             Reason::OutOfRange(remedy) => {
                 Diagnostic::here(span, format!("the number {shown} is out of range"), remedy)

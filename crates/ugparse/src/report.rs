@@ -35,7 +35,10 @@ impl Diagnostic {
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
         let drawn = renderer.render(&report);
         let places = [Some(self.span), self.other.as_ref().map(|(span, _)| *span)];
-        places.into_iter().flatten().fold(drawn, |drawn, span| with_whole_column(drawn, source, marks, span))
+        places
+            .into_iter()
+            .flatten()
+            .fold(drawn, |drawn, span| with_whole_column(drawn, source, marks, span))
     }
 
     /// The lines to show: one snippet for each location.
@@ -51,7 +54,10 @@ impl Diagnostic {
                 let (name, line) = source.reported(marks, span.start);
                 let label = (!label.is_empty()).then(|| message(label));
                 let annotation = kind.span(excerpt.mark).label(label);
-                Snippet::source(excerpt.text).path(printable(name)).line_start(line).annotation(annotation)
+                Snippet::source(excerpt.text)
+                    .path(printable(name))
+                    .line_start(line)
+                    .annotation(annotation)
             })
             .collect()
     }
@@ -107,8 +113,11 @@ impl Diagnostics {
     /// Renders all findings as text.
     pub fn render(&self, styled: bool) -> String {
         let marks = marks_of(&self.source);
-        let mut parts: Vec<String> =
-            self.list.iter().map(|finding| finding.render_with(&self.source, &marks, styled)).collect();
+        let mut parts: Vec<String> = self
+            .list
+            .iter()
+            .map(|finding| finding.render_with(&self.source, &marks, styled))
+            .collect();
         if self.omitted > 0 {
             parts.push(format!("… and {} more", self.omitted));
         }

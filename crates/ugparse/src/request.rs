@@ -69,6 +69,7 @@ pub fn name_pictures(scene: &mut Scene, mesh: &str) {
 /// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the
 /// folder of the link.
 pub(crate) fn without_dots(path: &Path) -> PathBuf {
-    let path: PathBuf = path.components().filter(|component| *component != Component::CurDir).collect();
+    let path: PathBuf =
+        path.components().filter(|component| *component != Component::CurDir).collect();
     if path.as_os_str().is_empty() { ".".into() } else { path }
 }

@@ -69,7 +69,9 @@ struct Doubtful {
 }
 
 fn doubt(text: &[u8], value: ColorValue, span: Span, name_span: Span) -> Option<Doubtful> {
-    let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, .. } = value else { return None };
+    let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, .. } = value else {
+        return None;
+    };
     let hsv = Hsv { hue, saturation, value };
     let numbers = [value, hue, saturation];
     let is_byte = |number: &f64| (0.0..=255.0).contains(number) && number.fract() == 0.0;
@@ -88,7 +90,12 @@ fn doubt(text: &[u8], value: ColorValue, span: Span, name_span: Span) -> Option<
     // With one or two numbers it is not red, green and blue. Comments between them are rare.
     let statement = std::str::from_utf8(span.of(text)).ok()?;
     let n_words = statement.trim_end_matches([';', ' ']).split_whitespace().count();
-    (is_doubtful && n_words == 5).then(|| Doubtful { name: name.to_owned(), span: name_span, hsv, rgb })
+    (is_doubtful && n_words == 5).then(|| Doubtful {
+        name: name.to_owned(),
+        span: name_span,
+        hsv,
+        rgb,
+    })
 }
 
 /// The hue of the colour word that a name is, also with a number behind it.

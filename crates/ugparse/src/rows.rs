@@ -59,13 +59,24 @@ pub(crate) struct Named<'t, T> {
 
 impl<T> Default for Named<'_, T> {
     fn default() -> Self {
-        Self { table: Rows::default(), spans: Vec::new(), names: NameTable::default(), rows: Vec::new() }
+        Self {
+            table: Rows::default(),
+            spans: Vec::new(),
+            names: NameTable::default(),
+            rows: Vec::new(),
+        }
     }
 }
 
 impl<'t, T> Named<'t, T> {
     /// Adds the statement at `span`. If its name is already defined, returns it with the first one.
-    pub fn push(&mut self, text: &'t [u8], name: Option<Span>, row: T, span: Span) -> Option<[Span; 2]> {
+    pub fn push(
+        &mut self,
+        text: &'t [u8],
+        name: Option<Span>,
+        row: T,
+        span: Span,
+    ) -> Option<[Span; 2]> {
         let before = name.and_then(|name| {
             let number = self.names.enter(name.of(text));
             if number >= self.rows.len() {

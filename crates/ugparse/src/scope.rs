@@ -10,8 +10,9 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
-    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, Mix, NameId,
-    Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, Mix,
+    NameId, Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Vertex, VertexId,
+    Wire,
 };
 
 use crate::diagnostic::Diagnostic;
@@ -116,7 +117,9 @@ impl<'t> Scope<'t> {
     pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement) {
         self.n_statements += u64::from(!matches!(statement, Statement::Call(_)));
         match statement {
-            Statement::Vertex(name, vertex) => self.push_vertex(Name::new(name.of(text)), name, vertex),
+            Statement::Vertex(name, vertex) => {
+                self.push_vertex(Name::new(name.of(text)), name, vertex)
+            }
             Statement::Face(face) => self.faces.push(face, span),
             Statement::Wire(wire) => self.wires.push(wire, span),
             Statement::Color(name, color) => self.add_color(text, span, name, color),
@@ -178,7 +181,12 @@ impl<'t> Scope<'t> {
 
     /// Adds the vertices of a round face that is given by numbers, and its contours. Vertices are
     /// named after the face, by `word`, and cannot be referred to. `place`: that of their names.
-    pub fn push_round(&mut self, word: &str, place: Span, round: &RoundShape) -> std::ops::Range<u32> {
+    pub fn push_round(
+        &mut self,
+        word: &str,
+        place: Span,
+        round: &RoundShape,
+    ) -> std::ops::Range<u32> {
         let mut corners = round.corners().into_iter().zip(1..);
         let first = self.contours.row_count();
         for &len in round.shape.corners_of_contours() {
@@ -198,7 +206,9 @@ impl<'t> Scope<'t> {
     pub fn add_shading(&mut self, shading: Shading) -> ShadingId {
         // Consecutive faces often share one. -0 and 0 are equal, but written differently.
         let is_same = match (self.shadings.last(), shading) {
-            (Some(Shading::Level(last)), Shading::Level(level)) => last.to_bits() == level.to_bits(),
+            (Some(Shading::Level(last)), Shading::Level(level)) => {
+                last.to_bits() == level.to_bits()
+            }
             (last, shading) => last == Some(&shading),
         };
         if !is_same {
@@ -270,7 +280,9 @@ impl<'t> Scope<'t> {
     /// Is a vertex of this name defined in this scope?
     pub fn has_vertex(&self, name: &[u8]) -> bool {
         let number = self.vertex_names.get(Name::new(name));
-        number.is_some_and(|number| self.vertex_rows.get(number as usize).is_some_and(|&row| row != NO_ROW))
+        number.is_some_and(|number| {
+            self.vertex_rows.get(number as usize).is_some_and(|&row| row != NO_ROW)
+        })
     }
 
     /// Removes the faces of these rows, which must be sorted.
@@ -393,7 +405,9 @@ impl<'t> BodyTable<'t> {
     /// The name of each body that has one.
     pub fn name_of_each(&self) -> Vec<Option<(&'t [u8], Span)>> {
         let mut names = vec![None; self.bodies.len()];
-        self.named.iter().for_each(|(&name, &(body, span))| names[body.index()] = Some((name, span)));
+        self.named
+            .iter()
+            .for_each(|(&name, &(body, span))| names[body.index()] = Some((name, span)));
         names
     }
 

@@ -30,7 +30,13 @@ pub(crate) type Images = BTreeMap<(String, Option<u32>), Arc<[u8]>>;
 impl Source {
     /// A source from a name and text.
     pub fn new(name: impl Into<String>, text: impl Into<Vec<u8>>) -> Self {
-        Self { name: name.into(), text: text.into(), origin: None, mesh: None, images: Images::new() }
+        Self {
+            name: name.into(),
+            text: text.into(),
+            origin: None,
+            mesh: None,
+            images: Images::new(),
+        }
     }
 
     /// The same source with an origin.
@@ -70,7 +76,11 @@ impl Source {
         let name = before.iter().rev().find_map(|mark| mark.name.as_deref()).unwrap_or(&self.name);
         let Some(last) = before.last() else { return (name, self.line_column(position).0) };
         let end = (position as usize).min(self.text.len());
-        (name, last.line.saturating_add(memchr_iter(b'\n', &self.text[last.start as usize..end]).count()))
+        (
+            name,
+            last.line
+                .saturating_add(memchr_iter(b'\n', &self.text[last.start as usize..end]).count()),
+        )
     }
 }
 

@@ -41,7 +41,8 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
     for row in 0..document.scopes.len() {
         let scope = &mut document.scopes[row];
         let spans = scope.passed_on.spans.iter().copied().enumerate();
-        let statements: Vec<(usize, Span)> = spans.filter(|(_, span)| is_stage(span.of(text))).collect();
+        let statements: Vec<(usize, Span)> =
+            spans.filter(|(_, span)| is_stage(span.of(text))).collect();
         scope.remove_escapes(&statements.iter().map(|(row, _)| *row).collect::<Vec<_>>());
         for (_, span) in statements {
             let keyword = keyword_span(text, span);
@@ -52,7 +53,11 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
             } else if let Some((_, first)) = &document.stage {
                 let places = [keyword, keyword_span(text, *first)];
                 let help = "a scene has one stage: scenes of different stages cannot be joined";
-                findings.push(Diagnostic::again(places, "the stage of the scene is stated twice", help));
+                findings.push(Diagnostic::again(
+                    places,
+                    "the stage of the scene is stated twice",
+                    help,
+                ));
             } else {
                 match read(text, span) {
                     Ok(stage) => document.stage = Some((stage, span)),
@@ -113,12 +118,21 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
             _ => {
                 return Err(unknown(
                     word,
-                    &["eye", "time", "camera-velocity", "no-contraction", "no-flight-time", COLORS, MIXTURES],
+                    &[
+                        "eye",
+                        "time",
+                        "camera-velocity",
+                        "no-contraction",
+                        "no-flight-time",
+                        COLORS,
+                        MIXTURES,
+                    ],
                 ));
             }
         }
     }
-    seen.eye = eye.ok_or_else(|| words.missing("the eye point of a geometry as seen", "eye X Y Z"))?;
+    seen.eye =
+        eye.ok_or_else(|| words.missing("the eye point of a geometry as seen", "eye X Y Z"))?;
     Ok(GeometryStage::AsSeen(seen))
 }
 
@@ -154,7 +168,8 @@ fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
         spectra(flux, infrared)
     } else {
         let unit = if scale == "wavelengths" { HueScale::Wavelengths } else { HueScale::Degrees };
-        let law = law.ok_or_else(|| words.missing("the brightness law of hues as seen", "law report"))?;
+        let law =
+            law.ok_or_else(|| words.missing("the brightness law of hues as seen", "law report"))?;
         ColorScale::Hues { unit, law }
     };
     Ok(if stage == "deferred" { ColorStage::Deferred(seen) } else { ColorStage::AsSeen(seen) })
@@ -257,10 +272,12 @@ impl<'t> Words<'t> {
         if let Ok(([], value)) = number(word.text) {
             return Ok(value);
         }
-        let finding = Diagnostic::error(word.span, format!("`{}` is not a number", shorten(word.text)))
-            .label("expected a number");
-        Err(finding
-            .help(word_help("a number", word.text).unwrap_or_else(|| "give a finite number".to_string())))
+        let finding =
+            Diagnostic::error(word.span, format!("`{}` is not a number", shorten(word.text)))
+                .label("expected a number");
+        Err(finding.help(
+            word_help("a number", word.text).unwrap_or_else(|| "give a finite number".to_string()),
+        ))
     }
 
     fn point(&mut self) -> Result<DVec3, Diagnostic> {
@@ -285,7 +302,9 @@ impl<'t> Words<'t> {
 
     fn mixtures(&mut self) -> Result<MixtureNames, Diagnostic> {
         let example = "mix#";
-        let Some(word) = self.next() else { return Err(self.missing("the prefix of mixtures", example)) };
+        let Some(word) = self.next() else {
+            return Err(self.missing("the prefix of mixtures", example));
+        };
         MixtureNames::from_prefix(word.as_str()).ok_or_else(|| unknown(word, &[example]))
     }
 

@@ -4,7 +4,8 @@
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
 use ugscene::{
-    Camera, Color, ColorId, ColorTable, CurveKind, Face, Light, Mix, SurfaceProperties, Texture, Vertex, Wire,
+    Camera, Color, ColorId, ColorTable, CurveKind, Face, Light, Mix, SurfaceProperties, Texture,
+    Vertex, Wire,
 };
 
 use crate::source::Span;

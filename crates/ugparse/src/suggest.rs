@@ -9,7 +9,10 @@ const MAX_LENGTH: usize = 64;
 
 /// The candidate most similar to `word`: equal except for case, or with one or two typing errors.
 /// Ties go to the first candidate; `None` if no candidate is similar.
-pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n [u8]>) -> Option<&'n str> {
+pub(crate) fn nearest<'n>(
+    word: &[u8],
+    candidates: impl IntoIterator<Item = &'n [u8]>,
+) -> Option<&'n str> {
     let word = std::str::from_utf8(word).ok().filter(|word| word.len() <= MAX_LENGTH)?;
     let most = match word.len() {
         0..=2 => 0,

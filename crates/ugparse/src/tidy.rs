@@ -143,7 +143,8 @@ impl Layout {
 
     /// A stage statement, parentheses included, which holds words and numbers only.
     fn stage(&mut self, text: &[u8]) {
-        let words = text[1..text.len() - 1].split(|&byte| is_blank(byte)).filter(|word| !word.is_empty());
+        let words =
+            text[1..text.len() - 1].split(|&byte| is_blank(byte)).filter(|word| !word.is_empty());
         let mut mark = b'(';
         for text in words {
             self.out.push(mark);
@@ -210,7 +211,9 @@ impl Layout {
 fn behind_word(input: Input<'_>) -> Input<'_> {
     match input {
         [b'{', ..] => comment(input).map_or(&input[..0], |(rest, _)| rest),
-        [b'"', quoted @ ..] => &quoted[memchr::memchr(b'"', quoted).map_or(quoted.len(), |end| end + 1)..],
+        [b'"', quoted @ ..] => {
+            &quoted[memchr::memchr(b'"', quoted).map_or(quoted.len(), |end| end + 1)..]
+        }
         _ => &input[found(input).len()..],
     }
 }

@@ -75,7 +75,9 @@ pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
 /// Replaces what the error message says was expected.
 pub(crate) fn wanted<'a, T>(result: Parsed<'a, T>, what: &'static str) -> Parsed<'a, T> {
     result.map_err(|err| match err {
-        Err::Error(SyntaxError { at, .. }) => Err::Error(SyntaxError { at, reason: Reason::Expected(what) }),
+        Err::Error(SyntaxError { at, .. }) => {
+            Err::Error(SyntaxError { at, reason: Reason::Expected(what) })
+        }
         other => other,
     })
 }
@@ -256,7 +258,8 @@ pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
 pub(crate) fn number32(input: Input<'_>) -> Parsed<'_, f32> {
     let (rest, _) = number(input)?;
     let (at, ()) = blank(input)?;
-    let text = at[..at.len() - rest.len()].strip_prefix(b"+").unwrap_or(&at[..at.len() - rest.len()]);
+    let text =
+        at[..at.len() - rest.len()].strip_prefix(b"+").unwrap_or(&at[..at.len() - rest.len()]);
     match fast_float2::parse::<f32, _>(text) {
         Ok(value) if value.is_finite() => Ok((rest, value)),
         _ => fail(at, Reason::OutOfRange("here numbers have 32 bits and reach up to about 3.4e38")),
@@ -265,8 +268,8 @@ pub(crate) fn number32(input: Input<'_>) -> Parsed<'_, f32> {
 
 /// Powers of ten that are exact as f64.
 const POWERS_OF_TEN: [f64; 20] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
-    1e19,
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19,
 ];
 
 /// Integers up to this are exact as f64.

@@ -106,7 +106,8 @@ impl Transform {
         if self.map.matrix3 == DMat3::IDENTITY || d == DVec3::ZERO {
             return Some(d);
         }
-        let is_turn = (self.map.matrix3.transpose() * self.map.matrix3).abs_diff_eq(DMat3::IDENTITY, 1e-12);
+        let is_turn =
+            (self.map.matrix3.transpose() * self.map.matrix3).abs_diff_eq(DMat3::IDENTITY, 1e-12);
         let image = self.map.transform_vector3(d);
         if is_turn { Some(image) } else { Some(unit(image)? * d.length()) }
     }
@@ -140,7 +141,8 @@ impl Transform {
         let image = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * n;
         let sign = if a.dot(b.cross(c)) < 0.0 { -1.0 } else { 1.0 };
         // A normal whose length overflows, or nearly underflows, gets unit length.
-        let length = Some(n.length()).filter(|length| NORMAL_LENGTHS.contains(length)).unwrap_or(1.0);
+        let length =
+            Some(n.length()).filter(|length| NORMAL_LENGTHS.contains(length)).unwrap_or(1.0);
         unit(image).map_or(n, |image| image * (sign * length))
     }
 

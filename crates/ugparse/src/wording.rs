@@ -16,9 +16,9 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
             .label("neither a statement nor a comment")
             .help("comments are in braces, `{ like this }`; a line mark is `# LINE \"FILE\"`")
             .setting(Setting::Lax),
-        [b'/', b'/' | b'*', ..] => {
-            finding.label("neither a statement nor a comment").help("comments are in braces: `{ like this }`")
-        }
+        [b'/', b'/' | b'*', ..] => finding
+            .label("neither a statement nor a comment")
+            .help("comments are in braces: `{ like this }`"),
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
@@ -43,11 +43,15 @@ pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
     match wanted {
         #[cfg(feature = "report")]
         "a number" if let Some(remedy) = ugpipe::remedies::look_alike(&shown) => Some(remedy),
-        "a number" if looks_like_number && shown.contains(',') => Some("write a decimal point".to_string()),
+        "a number" if looks_like_number && shown.contains(',') => {
+            Some("write a decimal point".to_string())
+        }
         "a number" if ["nan", "inf", "infinity"].contains(&unsigned.as_str()) => {
             Some("every number must be finite".to_string())
         }
-        "a number" if looks_like_number => Some("numbers are written like `1`, `-.5` or `2e-3`".to_string()),
+        "a number" if looks_like_number => {
+            Some("numbers are written like `1`, `-.5` or `2e-3`".to_string())
+        }
         NAME | NAME_LETTERS if word.len() < 40 && word.iter().any(u8::is_ascii_alphanumeric) => {
             let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '_' | '#');
             let name: String = shown.chars().map(|c| if allowed(c) { c } else { '_' }).collect();

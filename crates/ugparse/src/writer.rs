@@ -7,9 +7,9 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
-    AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Contours, Light,
-    LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties, Texture,
-    VertexId, Wire, Wrap,
+    AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Contours,
+    Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion,
+    SurfaceProperties, Texture, VertexId, Wire, Wrap,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -46,7 +46,14 @@ pub fn write_with(scene: &Scene, passed_on: &PassedOn) -> Vec<u8> {
 pub fn write_to(scene: &Scene, passed_on: &PassedOn, out: &mut dyn Write) -> io::Result<usize> {
     let motions: Vec<BodyId> = scene.bodies.stated_by_name().collect();
     let comments = &passed_on.comments_in(scene);
-    Tables { scene, passed_on, motions: &motions, chunked_writer: ChunkedWriter::new(out), comments }.send()
+    Tables {
+        scene,
+        passed_on,
+        motions: &motions,
+        chunked_writer: ChunkedWriter::new(out),
+        comments,
+    }
+    .send()
 }
 
 /// Writes the tables of a scene.
@@ -68,7 +75,9 @@ impl<'s> Tables<'s, '_> {
         }
         let at_stage: fn(u32) -> Item = |_| Item::Stage;
         let stage = if scene.stage.is_at_rest() { &[] } else { std::slice::from_ref(&scene.stage) };
-        self.rows(stage, at_stage, |w, stage| stage_statement::write(stage, &mut w.out, &mut w.numbers))?;
+        self.rows(stage, at_stage, |w, stage| {
+            stage_statement::write(stage, &mut w.out, &mut w.numbers)
+        })?;
         let sky = scene.sky.as_slice();
         self.rows(sky, at_stage, |w, sky| sky_statement::write(sky, &mut w.out, &mut w.numbers))?;
         self.rows(&self.passed_on.statements, Item::PassedOn, |w, text| w.text(text))?;
@@ -95,7 +104,9 @@ impl<'s> Tables<'s, '_> {
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
         let mut along = FxHashMap::default();
         for &body in self.motions {
-            if let Some(MotionPath::Along(path)) = scene.bodies.statement(body).map(|motion| &motion.path) {
+            if let Some(MotionPath::Along(path)) =
+                scene.bodies.statement(body).map(|motion| &motion.path)
+            {
                 along.entry(path.address()).or_insert(body);
             }
         }
@@ -168,9 +179,15 @@ impl<'s> Tables<'s, '_> {
     }
 
     /// A block of rows with the comments that belong to them.
-    fn take_block<T>(&mut self, first: usize, rows: &'s [T], item: fn(u32) -> Item) -> Block<'s, T> {
+    fn take_block<T>(
+        &mut self,
+        first: usize,
+        rows: &'s [T],
+        item: fn(u32) -> Item,
+    ) -> Block<'s, T> {
         let last = item((first + rows.len() - 1) as u32);
-        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|(at, _)| *at <= last));
+        let (comments, rest) =
+            self.comments.split_at(self.comments.partition_point(|(at, _)| *at <= last));
         self.comments = rest;
         Block { first, rows, comments }
     }
@@ -220,7 +237,12 @@ impl<'s> Writer<'s> {
     }
 
     /// Writes one line per row, with the comments above and after it.
-    fn block<T>(&mut self, block: &Block<'s, T>, item: fn(u32) -> Item, line: impl Fn(&mut Self, &'s T)) {
+    fn block<T>(
+        &mut self,
+        block: &Block<'s, T>,
+        item: fn(u32) -> Item,
+        line: impl Fn(&mut Self, &'s T),
+    ) {
         for (row, idx) in block.rows.iter().zip(block.first..) {
             self.row = idx as u32;
             if self.comments.is_empty() {
@@ -499,7 +521,9 @@ impl<'s> Writer<'s> {
                 }
                 accelerations.iter().for_each(|piece| self.piece(" -acc", piece, 0.0));
             }
-            MotionPath::Curve { kind, numbers } => self.option(&format!(" -{}", kind.word), numbers),
+            MotionPath::Curve { kind, numbers } => {
+                self.option(&format!(" -{}", kind.word), numbers)
+            }
             MotionPath::Along(path) if along[&path.address()] != body => {
                 self.text(" -path");
                 push_motion_name(&mut self.out, self.scene, along[&path.address()]);
@@ -561,7 +585,9 @@ impl<'s> Writer<'s> {
                 self.option(" -spot", &axis.to_array());
                 self.numbers(&degrees);
             }
-            Beam::Area(edges) => self.option(" -area", edges.map(|edge| edge.to_array()).as_flattened()),
+            Beam::Area(edges) => {
+                self.option(" -area", edges.map(|edge| edge.to_array()).as_flattened())
+            }
         }
         light.motion.body().into_iter().for_each(|body| self.motion_of(body, place));
         self.text(";");

@@ -10,10 +10,12 @@ use uglight::Interpolation;
 use ugparse::pipe;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, color_shift, kinds, picture_format, pixel,
-    refuse_terminal, with_format, write_explanation, write_picture,
+    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, color_shift, kinds,
+    picture_format, pixel, refuse_terminal, with_format, write_explanation, write_picture,
 };
-use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, number, one_of, whole};
+use ugpipe::{
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, number, one_of, whole,
+};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 use ugskybox::BuiltIn;
@@ -210,7 +212,12 @@ impl ToolArgs for Args {
 
     const LOOKS: Looks = Looks {
         default: Look::Light,
-        light: &[ShiftArgs::SPECTRA, RepeatArgs::APART, PictureArgs::AUTO_EXPOSURE, PictureArgs::FILMIC],
+        light: &[
+            ShiftArgs::SPECTRA,
+            RepeatArgs::APART,
+            PictureArgs::AUTO_EXPOSURE,
+            PictureArgs::FILMIC,
+        ],
         shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART],
     };
 
@@ -237,7 +244,8 @@ impl Args {
             ));
         }
         let format = picture_format(self.dt, output, self.explain.is_some())?;
-        let mut picture = self.picture.options(Output::Color(format), self.annotations.options()?)?;
+        let mut picture =
+            self.picture.options(Output::Color(format), self.annotations.options()?)?;
         picture.camera.is_ahead = self.motion.is_ahead();
         Ok(Config {
             motion: self.motion.options()?,
@@ -249,7 +257,9 @@ impl Args {
                 shadows: !self.no_shadows,
                 sky_light: !self.no_sky_light,
                 fresnel: self.fresnel,
-                shutter: self.film_shutter.map_or(Shutter::Pinhole, |distance| Shutter::Film { distance }),
+                shutter: self
+                    .film_shutter
+                    .map_or(Shutter::Pinhole, |distance| Shutter::Film { distance }),
             },
             interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
@@ -278,14 +288,16 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         return write_explanation(args.dt, &config.reading, context, explain);
     }
     refuse_terminal(config.picture.output.format(), context)?;
-    let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
+    let preview =
+        if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
     config.sky.open_with((&source, &config.reading), &args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();
-    let (drawing, warnings) = PreparedScene::read(&config, &source, provenance, !context.is_quiet(), &steps)
-        .map_err(Failure::of)?;
+    let (drawing, warnings) =
+        PreparedScene::read(&config, &source, provenance, !context.is_quiet(), &steps)
+            .map_err(Failure::of)?;
     if let Some(file) = preview {
         for side in PreparedScene::PREVIEWS {
             let preview = drawing.preview(side, &steps).map_err(Failure::of)?;
@@ -300,7 +312,9 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 fn no_preview() -> Failure {
-    Failure::usage("-pv replaces a file by finer pictures: name one with -fo FILE, or leave out -pv")
+    Failure::usage(
+        "-pv replaces a file by finer pictures: name one with -fo FILE, or leave out -pv",
+    )
 }
 
 /// A distance.

@@ -65,7 +65,9 @@ impl Config {
         if self.radiances && !(is_exr && matches!(self.shift, ColorShift::Spectra(_))) {
             return Err(Error::NoWavelengths);
         }
-        let Some([left, top, width, height]) = self.crop else { return Ok(Canvas::new(&self.picture)?) };
+        let Some([left, top, width, height]) = self.crop else {
+            return Ok(Canvas::new(&self.picture)?);
+        };
         self.picture.check_size()?;
         let fits = |start: u32, length: u32, side: u32| {
             length > 0 && start.checked_add(length).is_some_and(|end| end <= side)

@@ -91,7 +91,9 @@ pub enum Error {
     #[error("rays go through the eye, and in orthographic projection they do not meet there")]
     Orthographic,
     /// Contraction or time of flight is left out.
-    #[error("rays follow contraction and time of flight, and one of them is left out of this scene")]
+    #[error(
+        "rays follow contraction and time of flight, and one of them is left out of this scene"
+    )]
     PartialGeometry,
     /// Hues are shifted, of moving bodies with spectra.
     #[error("hues are shifted, and a black body or spectrum of this scene moves")]

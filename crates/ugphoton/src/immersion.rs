@@ -37,7 +37,8 @@ impl Immersion {
         let is_any = faces.scene.surfaces.iter().any(|surface| surface.transmitted > 0.0);
         let parts = world.parts.iter().enumerate().filter(|_| is_any);
         let boxes = parts.flat_map(|(row, part)| {
-            part.boxes(|corner| faces.rest[corner.index()]).map(move |(face, bounds)| (row, face, bounds))
+            part.boxes(|corner| faces.rest[corner.index()])
+                .map(move |(face, bounds)| (row, face, bounds))
         });
         for (part, face, of_face) in boxes {
             let Some(solid) = transparent_solid(faces.scene, part, face) else { continue };
@@ -85,7 +86,12 @@ impl Immersion {
 
 /// True if a closed body is around an event: paths into the past meet a face that `is_opaque`
 /// first, in every direction.
-pub fn is_enclosed(world: &World, faces: Faces<'_>, event: Event, is_opaque: impl Fn(u32) -> bool) -> bool {
+pub fn is_enclosed(
+    world: &World,
+    faces: Faces<'_>,
+    event: Event,
+    is_opaque: impl Fn(u32) -> bool,
+) -> bool {
     let meets_opaque = |direction: &DVec3| {
         let ray = PastRay::in_vacuum(event, *direction);
         let first = world.closest(faces, &ray, 0.0..f64::INFINITY);
@@ -106,7 +112,12 @@ pub struct Crossing {
 
 impl Crossing {
     /// Where a ray meets a face; `None` if that is not of a transparent solid.
-    pub fn new(world: &World, faces: Faces<'_>, ray: &PastRay, found: &Intersection) -> Option<Self> {
+    pub fn new(
+        world: &World,
+        faces: Faces<'_>,
+        ray: &PastRay,
+        found: &Intersection,
+    ) -> Option<Self> {
         let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
         let step = ray.in_part(found.part, &world.parts[found.part].frame).1;
         Some(Self { solid, is_exit: world.outside_at(ray, found).dot(step) > 0.0, s: found.s })

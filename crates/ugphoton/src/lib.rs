@@ -80,7 +80,7 @@ pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugpicture::lens;
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
-    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering, Tone,
-    metadata,
+    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering,
+    Tone, metadata,
 };
 pub use ugscene::{Anchor, CameraOptions, HueScale, MotionOptions, Provenance};

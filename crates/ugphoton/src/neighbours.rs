@@ -38,7 +38,8 @@ impl PictureSample {
         let [column, row] = self.place.map(|at| f64::from(at) + 0.5);
         let steps = scenery.film.steps_in_frame(self.place, self.distance);
         let ray = |across: f64, down: f64| {
-            let through = |sign: f64| scenery.ray_through([column + sign * across, row + sign * down]);
+            let through =
+                |sign: f64| scenery.ray_through([column + sign * across, row + sign * down]);
             through(1.0).or_else(|| through(-1.0))
         };
         Some([ray(steps[0], 0.0)?, ray(0.0, steps[1])?])

@@ -34,7 +34,11 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
     let has_gap = statistics.n_open > statistics.n_covered / FEW;
     let name = |face: u32| {
         let name = scene.faces[face as usize].name.map_or("", |name| scene.names.get(name));
-        if name.is_empty() { format!("face {}", face + 1) } else { format!("face {} (`{name}`)", face + 1) }
+        if name.is_empty() {
+            format!("face {}", face + 1)
+        } else {
+            format!("face {} (`{name}`)", face + 1)
+        }
     };
     if config.rays.depth > 0
         && let Some(face) = open_face(&scenery.world, scenery.faces())
@@ -98,7 +102,8 @@ fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
 /// True if the light of lamps, which is followed backwards in straight lines (P24), may cross a
 /// refracting solid.
 fn lamps_shine_through_glass(scenery: &Scenery<'_>) -> bool {
-    let refracts = |surface: &SurfaceProperties| surface.transmitted > 0.0 && surface.refraction != 1.0;
+    let refracts =
+        |surface: &SurfaceProperties| surface.transmitted > 0.0 && surface.refraction != 1.0;
     let is_refracting = |face: &Face| scenery.scene.surface(face).is_some_and(refracts);
     let is_directed = scenery.lamps.iter().any(|lamp| lamp.place != LampPlace::Everywhere);
     scenery.has_lights()

@@ -21,7 +21,11 @@ pub struct PixelCenters<'a> {
 
 impl<'a> PixelCenters<'a> {
     /// `area`: left column, upper row, width and height.
-    pub fn new(scenery: &'a Scenery<'a>, [left, top, width, height]: [u32; 4], samples: u32) -> Self {
+    pub fn new(
+        scenery: &'a Scenery<'a>,
+        [left, top, width, height]: [u32; 4],
+        samples: u32,
+    ) -> Self {
         let n_pixels = width as usize * height as usize;
         let mut centers = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
         centers.surfaces = (0..n_pixels).into_par_iter().map(|idx| centers.surface(idx)).collect();
@@ -33,7 +37,8 @@ impl<'a> PixelCenters<'a> {
         let [left, top, width] = self.area;
         // A picture has fewer than 2^32 pixels.
         let (column, row) = ((idx % width as usize) as u32, (idx / width as usize) as u32);
-        self.scenery.primary_ray([left + column, top + row].map(|at| at * self.samples + self.samples / 2))
+        self.scenery
+            .primary_ray([left + column, top + row].map(|at| at * self.samples + self.samples / 2))
     }
 
     fn surface(&self, idx: usize) -> Option<(f64, u32)> {
@@ -62,7 +67,12 @@ impl<'a> PixelCenters<'a> {
     }
 
     /// Light of a body along a ray, if the eye is in a transparent solid.
-    fn in_medium(&self, ray: &PastRay, body: BodyId, on_line: Option<Velocity>) -> Option<MediumLight> {
+    fn in_medium(
+        &self,
+        ray: &PastRay,
+        body: BodyId,
+        on_line: Option<Velocity>,
+    ) -> Option<MediumLight> {
         self.scenery.media_at(ray.origin).innermost()?;
         let frame = match on_line {
             Some(velocity) => RestFrame::new(velocity),

@@ -62,7 +62,11 @@ impl Statistics {
 
 /// The light of a picture, or of a part of it, with the requested channels. Tiles are missing if
 /// the caller stopped it.
-pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) -> (LinearFrame, Statistics) {
+pub fn light(
+    scenery: &Scenery<'_>,
+    config: &Config,
+    progress: &dyn Progress,
+) -> (LinearFrame, Statistics) {
     let mut painting = Painting::new(scenery, config);
     let [width, height] = painting.area.clone().map(|range| range.len() as u32);
     let [left, top] = [painting.area[0].start, painting.area[1].start];
@@ -85,12 +89,14 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
         )
         .while_some()
         .collect();
-    let statistics = tiles.iter().fold(Statistics::default(), |sum, tile| sum.with(tile.statistics));
+    let statistics =
+        tiles.iter().fold(Statistics::default(), |sum, tile| sum.with(tile.statistics));
     let mut pixels = vec![[0.0; 4]; width as usize * height as usize];
     for tile in tiles {
         let n = tile.columns.len();
         for (line, row) in tile.rows.clone().enumerate() {
-            let start = (row - top) as usize * width as usize + (tile.columns.start - left) as usize;
+            let start =
+                (row - top) as usize * width as usize + (tile.columns.start - left) as usize;
             pixels[start..start + n].copy_from_slice(&tile.pixels[line * n..(line + 1) * n]);
         }
     }
@@ -104,7 +110,12 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
 }
 
 /// A preview of [`light`]: squares of `side` pixels with one sample each, and without channels.
-pub fn preview(scenery: &Scenery<'_>, config: &Config, side: u32, progress: &dyn Progress) -> LinearFrame {
+pub fn preview(
+    scenery: &Scenery<'_>,
+    config: &Config,
+    side: u32,
+    progress: &dyn Progress,
+) -> LinearFrame {
     let painting = Painting::new(scenery, config);
     let [width, height] = painting.area.clone().map(|range| range.len() as u32);
     let [columns, rows] = [width, height].map(|length| length.div_ceil(side));
@@ -115,8 +126,9 @@ pub fn preview(scenery: &Scenery<'_>, config: &Config, side: u32, progress: &dyn
             || Tracer::new(scenery),
             |tracer, row| {
                 let n_columns = if progress.is_stopped() { 0 } else { columns };
-                let line =
-                    (0..n_columns).map(|column| painting.square([column, row], side, tracer)).collect();
+                let line = (0..n_columns)
+                    .map(|column| painting.square([column, row], side, tracer))
+                    .collect();
                 progress.done(1);
                 line
             },
@@ -125,7 +137,8 @@ pub fn preview(scenery: &Scenery<'_>, config: &Config, side: u32, progress: &dyn
     let lines = &lines;
     let pixels = (0..height).flat_map(|row| {
         let line = &lines[(row / side) as usize];
-        (0..width).map(move |column| line.get((column / side) as usize).copied().unwrap_or_default())
+        (0..width)
+            .map(move |column| line.get((column / side) as usize).copied().unwrap_or_default())
     });
     LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels.collect())
 }
@@ -150,13 +163,17 @@ pub fn explained(scenery: &Scenery<'_>, config: &Config, pixel: [u32; 2]) -> Vec
     let ray = |place: [u32; 2]| {
         let ray = scenery.primary_ray(place)?;
         let first = scenery.closest(&ray, slab.near..slab.far);
-        let sample = u64::from(place[1]) * u64::from(config.picture.size[0] * n) + u64::from(place[0]);
+        let sample =
+            u64::from(place[1]) * u64::from(config.picture.size[0] * n) + u64::from(place[0]);
         let (arriving, visits) =
             tracer.explained(&ray, first, slab.far, (sample, PictureSample { place, distance: 1 }));
         Some(ExplainedRay { place, ray, arriving, visits })
     };
     let places = (0..n).flat_map(|row| (0..n).map(move |column| [column, row]));
-    places.map(|[column, row]| [pixel[0] * n + column, pixel[1] * n + row]).filter_map(ray).collect()
+    places
+        .map(|[column, row]| [pixel[0] * n + column, pixel[1] * n + row])
+        .filter_map(ray)
+        .collect()
 }
 
 /// Data that all tiles of a picture share.
@@ -302,13 +319,16 @@ impl<'a> Painting<'a> {
             };
             let area = [samples.columns.clone(), samples.rows.clone()];
             match &self.outlines {
-                Some(outlines) => outlines.with_nearest(tile, area, |seen| trace(Some(seen), &mut samples)),
+                Some(outlines) => {
+                    outlines.with_nearest(tile, area, |seen| trace(Some(seen), &mut samples))
+                }
                 None => trace(None, &mut samples),
             }
             return samples;
         };
         let first = first_samples(n);
-        let is_first = |[column, row]: [u32; 2]| first.contains(&(column % n)) && first.contains(&(row % n));
+        let is_first =
+            |[column, row]: [u32; 2]| first.contains(&(column % n)) && first.contains(&(row % n));
         self.trace(&mut samples, own, None, (tracer, packet), statistics, is_first);
         // Without the samples beside the outermost pixels.
         let pixels = [(columns, 0), (rows, 1)].map(|(range, axis): (&Range<u32>, usize)| {
@@ -323,7 +343,8 @@ impl<'a> Painting<'a> {
         }
         let is_pixel_refined = |[column, row]: [u32; 2]| {
             let is_inside = pixels[0].contains(&column) && pixels[1].contains(&row);
-            let at = || (row - pixels[1].start) as usize * width + (column - pixels[0].start) as usize;
+            let at =
+                || (row - pixels[1].start) as usize * width + (column - pixels[0].start) as usize;
             is_inside && is_refined[at()]
         };
         self.trace(&mut samples, own, None, (tracer, packet), statistics, |sample| {
@@ -353,8 +374,10 @@ impl<'a> Painting<'a> {
         let has_background = self.scenery.is_seen_from_origin();
         for top in samples.rows.clone().step_by(PACKET as usize) {
             for left in samples.columns.clone().step_by(PACKET as usize) {
-                let (right, bottom) =
-                    ((left + PACKET).min(samples.columns.end), (top + PACKET).min(samples.rows.end));
+                let (right, bottom) = (
+                    (left + PACKET).min(samples.columns.end),
+                    (top + PACKET).min(samples.rows.end),
+                );
                 packet.trace(self.scenery, [left..right, top..bottom], seen, &is_wanted);
                 statistics.n_samples += packet.places.len() as u64;
                 for (&place @ [column, row], (ray, first)) in
@@ -381,7 +404,8 @@ impl<'a> Painting<'a> {
                         statistics.open_face = open.into_iter().flatten().min();
                         statistics.max_light = statistics.max_light.max(brightest);
                     }
-                    *samples.at([column, row]) = self.on_background(arriving.light, arriving.background);
+                    *samples.at([column, row]) =
+                        self.on_background(arriving.light, arriving.background);
                 }
             }
         }
@@ -408,7 +432,8 @@ impl<'a> Painting<'a> {
                 (0..4).for_each(|at| high[at] = high[at].max(sample[at]));
             }
         }
-        let most = |of: fn(f32, f32) -> f32| (0..3).map(|at| of(high[at], low[at])).fold(0.0, f32::max);
+        let most =
+            |of: fn(f32, f32) -> f32| (0..3).map(|at| of(high[at], low[at])).fold(0.0, f32::max);
         let (spread, level) = (most(|high, low| high - low), most(|high, low| high + low));
         let contrast = contrast as f32;
         spread > contrast * level + ROUNDING || high[3] - low[3] > contrast
@@ -422,7 +447,9 @@ impl<'a> Painting<'a> {
         const ROUNDING: f64 = 1e-9;
         let is_colored = background.max_element() - background.min_element() > ROUNDING;
         let (light, covered) = match self.backdrop.light() {
-            Some(behind) if is_colored => (light + background * DVec3::from(behind.map(f64::from)), 1.0),
+            Some(behind) if is_colored => {
+                (light + background * DVec3::from(behind.map(f64::from)), 1.0)
+            }
             _ if is_colored => (light, 1.0 - background.element_sum() / 3.0),
             _ => (light, 1.0 - background.x),
         };
@@ -438,7 +465,10 @@ impl<'a> Painting<'a> {
             let first = i64::from(pixel * n) - i64::from(margin * n);
             let [start, end] = [traced.start.max(frame.start * n), traced.end.min(frame.end * n)]
                 .map(|at| (i64::from(at) - first).clamp(0, weights.len() as i64));
-            (&weights[start as usize..end as usize], (first + start - i64::from(traced.start)) as usize)
+            (
+                &weights[start as usize..end as usize],
+                (first + start - i64::from(traced.start)) as usize,
+            )
         };
         let (across, left) = used(0, column, &samples.columns);
         let (down, top) = used(1, row, &samples.rows);
@@ -461,7 +491,8 @@ impl<'a> Painting<'a> {
 
 impl Samples {
     fn index(&self, [column, row]: [u32; 2]) -> usize {
-        (row - self.rows.start) as usize * self.columns.len() + (column - self.columns.start) as usize
+        (row - self.rows.start) as usize * self.columns.len()
+            + (column - self.columns.start) as usize
     }
 
     fn at(&mut self, place: [u32; 2]) -> &mut [f32; 4] {
@@ -473,7 +504,9 @@ impl Samples {
     fn fill(&mut self, pixel: [u32; 2], n: u32, first: &[u32]) {
         let [left, top] = pixel.map(|at| at * n);
         let mut mean = [0.0_f32; 4];
-        for (down, across) in first.iter().flat_map(|down| first.iter().map(move |across| (down, across))) {
+        for (down, across) in
+            first.iter().flat_map(|down| first.iter().map(move |across| (down, across)))
+        {
             let sample = *self.at([left + across, top + down]);
             (0..4).for_each(|at| mean[at] += sample[at]);
         }

@@ -7,7 +7,8 @@ use ugimage::{LinearFrame, Metadata, Plane, Samples};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::WorldLineError;
 use ugpicture::{
-    Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, metadata,
+    Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject,
+    metadata,
 };
 use ugpipe::Progress;
 use ugscene::{BodyBoxes, PlacedBodies, Provenance, Scene, ShownPoint, View};
@@ -22,8 +23,11 @@ use crate::scenery::Scenery;
 use crate::{pixels, wires};
 
 /// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+pub const PROVENANCE: Provenance<'static> = Provenance {
+    program: env!("CARGO_PKG_NAME"),
+    version: env!("CARGO_PKG_VERSION"),
+    command: None,
+};
 
 /// Renders a scene at rest.
 ///
@@ -37,7 +41,11 @@ pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
 ///
 /// # Errors
 /// See [`Error`].
-pub fn render_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+pub fn render_with(
+    scene: Scene,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<Rendering, Error> {
     PreparedScene::new(scene, config, config.canvas()?, PROVENANCE, progress)?.picture(progress)
 }
 
@@ -120,7 +128,8 @@ impl PreparedScene {
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
         progress.step("preparing", 0);
-        let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.head, provenance) };
+        let metadata =
+            Metadata { panorama: config.panorama(), ..metadata(&scene.head, provenance) };
         let mut config = config.on(&canvas);
         config.sky.or_stated(scene.sky.as_ref());
         let (mut scene, mut notes) = (scene, Vec::new());
@@ -173,7 +182,11 @@ impl PreparedScene {
     }
 
     /// Adds the channels of radiances, if they are asked for; three are drawn at a time.
-    fn push_radiances(&self, frame: &mut LinearFrame, progress: &dyn Progress) -> Result<(), Error> {
+    fn push_radiances(
+        &self,
+        frame: &mut LinearFrame,
+        progress: &dyn Progress,
+    ) -> Result<(), Error> {
         if !self.config.radiances {
             return Ok(());
         }
@@ -195,7 +208,11 @@ impl PreparedScene {
     }
 
     /// Puts the sky behind the light of the picture. Returns its brightest channel.
-    fn put_sky_behind(&self, frame: &mut LinearFrame, progress: &dyn Progress) -> Result<f32, Error> {
+    fn put_sky_behind(
+        &self,
+        frame: &mut LinearFrame,
+        progress: &dyn Progress,
+    ) -> Result<f32, Error> {
         let Self { config, scenery, .. } = self;
         if !config.sky.is_some() {
             return Ok(0.0);
@@ -233,7 +250,8 @@ impl PreparedScene {
             found(&|idx| centers.item(idx));
             Ok(())
         };
-        let is_single = config.lens == Lens::Pinhole && config.stereo.is_none() && config.crop.is_none();
+        let is_single =
+            config.lens == Lens::Pinhole && config.stereo.is_none() && config.crop.is_none();
         let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
         let subject = Subject::Surfaces {
             view: &scenery.view,
@@ -243,7 +261,8 @@ impl PreparedScene {
             shows_hidden: false,
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let is_uncut = scenery.keeps_highlights || config.sky.is_some() && config.shift.is_spectral();
+        let is_uncut =
+            scenery.keeps_highlights || config.sky.is_some() && config.shift.is_spectral();
         let content = DrawnContent::Light { frame, is_clipped: !is_uncut };
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
@@ -265,8 +284,12 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;
-    let placed =
-        PlacedBodies::move_to_camera_frame(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
+    let placed = PlacedBodies::move_to_camera_frame(
+        &mut scene,
+        &config.motion,
+        &picture.camera,
+        config.frame_size(),
+    )?;
     let rest = placed.rest_positions(&scene);
     if config.smooth {
         let normals = ugscene::smooth_normals(&scene, &rest);
@@ -287,7 +310,9 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
         points.push(ShownPoint { body, rest, seen, own_time });
     }
     if let Some(row) = placed.show(&mut scene, &points, points.len()) {
-        return Err(Error::OutOfRange { name: scene.names.get(scene.vertices[row].name).to_string() });
+        return Err(Error::OutOfRange {
+            name: scene.names.get(scene.vertices[row].name).to_string(),
+        });
     }
     Ok(scene)
 }

@@ -16,7 +16,8 @@ pub fn square_point(sample: u64, lamp: u64) -> [f64; 2] {
     // The R2 sequence (M. Roberts, 2018): each sample falls between those before it.
     const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
     let shift = scrambled(lamp.wrapping_add(0x9e37_79b9_7f4a_7c15));
-    let start = [(shift >> 32) as f64, (shift & 0xffff_ffff) as f64].map(|bits| bits / 4_294_967_296.0);
+    let start =
+        [(shift >> 32) as f64, (shift & 0xffff_ffff) as f64].map(|bits| bits / 4_294_967_296.0);
     // Below 2^40 the product keeps a precision of 2^-13, and pictures have fewer samples.
     [0, 1].map(|at| (start[at] + STEPS[at] * sample as f64).fract())
 }

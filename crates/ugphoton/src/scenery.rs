@@ -8,7 +8,9 @@ use uglight::{Appearance, ColorShift, FaceColors, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugpicture::{PictureOptions, Surfaces};
-use ugscene::{BodyId, Face, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
+use ugscene::{
+    BodyId, Face, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
+};
 use ugskybox::{SkyAround, SkyLamps};
 
 use crate::config::{Config, RayOptions, Shutter};
@@ -119,7 +121,8 @@ impl<'a> Scenery<'a> {
         let mut scene = scene;
         let interpolation = config.interpolation.of_scene(&mut scene, config.hue_scale)?;
         let shift = config.shift;
-        let sky_lamps = if config.rays.sky_light { config.sky.lamps(sky_sets(*samples))? } else { None };
+        let sky_lamps =
+            if config.rays.sky_light { config.sky.lamps(sky_sets(*samples))? } else { None };
         let sky_motion = sky_lamps.as_ref().map(|_| {
             let velocity = -ugscene::camera_velocity(&scene);
             LightMotion::Body(scene.to_mut().bodies.moving_with(velocity))
@@ -137,8 +140,9 @@ impl<'a> Scenery<'a> {
             return Err(Error::MovingMedium { name: name.to_string() });
         }
         let face_colors = appearance.all_face_colors(&scene);
-        let textures = Textures::new(&scene, |color| uglight::RestColor::new(&scene, Some(color)).linear())
-            .map_err(|error| Error::Picture(error.into()))?;
+        let textures =
+            Textures::new(&scene, |color| uglight::RestColor::new(&scene, Some(color)).linear())
+                .map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, Event::ORIGIN);
         let is_spectral = shift.is_spectral();
@@ -150,11 +154,12 @@ impl<'a> Scenery<'a> {
         let n_own_lamps = lamps.len();
         let lamp_media = lamps[..n_own_lamps].iter().map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
-            let velocity = lamp.motion.body().map(|body| appearance.surface.frames().velocity(body));
+            let velocity =
+                lamp.motion.body().map(|body| appearance.surface.frames().velocity(body));
             (0..world.parts.len()).find_map(|part| {
                 let frame = &world.parts[part].frame;
-                let rests =
-                    world.parts[part].motion.is_none() && velocity.is_none_or(|v| v == frame.velocity());
+                let rests = world.parts[part].motion.is_none()
+                    && velocity.is_none_or(|v| v == frame.velocity());
                 let event = || frame.camera_from_rest(Event { t: -place.length(), x: place });
                 let inside = rests.then(|| immersion.media(&world, faces, event()).innermost());
                 inside.flatten().filter(|solid| solid.part == part)
@@ -167,8 +172,11 @@ impl<'a> Scenery<'a> {
         let (lamps, appearance) = match (&sky_lamps, sky_motion) {
             (Some(sky), Some(motion)) => {
                 let lamps = lamps.and(sky.lights(n_own_lamps, motion, is_spectral));
-                let n_lamps =
-                    if appearance.palette.swatches.len() <= MOST_TABULATED { lamps.len() } else { 0 };
+                let n_lamps = if appearance.palette.swatches.len() <= MOST_TABULATED {
+                    lamps.len()
+                } else {
+                    0
+                };
                 (lamps, appearance.with_tables(n_lamps))
             }
             _ => (lamps, appearance),
@@ -205,7 +213,8 @@ impl<'a> Scenery<'a> {
     /// True if a face transmits light straight on.
     pub fn is_translucent(&self, face: u32) -> bool {
         let face = &self.scene.faces[face as usize];
-        self.appearance.is_translucent(&self.scene, face) || self.textures.is_translucent(face.color)
+        self.appearance.is_translucent(&self.scene, face)
+            || self.textures.is_translucent(face.color)
     }
 
     /// True if the scene has lights, or its sky lights it. Default lights cast no shadows.
@@ -312,7 +321,11 @@ impl<'a> Scenery<'a> {
         const LEAST: u64 = 32;
         let n_samples = u64::from(tiles.size[0]) * u64::from(tiles.size[1]);
         let are_faster = n_samples >= LEAST * self.scene.faces.len() as u64;
-        if !(are_faster && !self.scene.has_rounds() && self.is_seen_from_origin() && self.film.is_pinhole()) {
+        if !(are_faster
+            && !self.scene.has_rounds()
+            && self.is_seen_from_origin()
+            && self.film.is_pinhole())
+        {
             return None;
         }
         Some(self.world.outlines(self.faces(), self.appearance.surface.frames(), &self.view, tiles))
@@ -330,7 +343,13 @@ impl<'a> Scenery<'a> {
     ) {
         first.clear();
         if let Some(seen) = seen {
-            return self.world.first_behind(self.faces(), rays, range, |row| seen.at(places[row]), first);
+            return self.world.first_behind(
+                self.faces(),
+                rays,
+                range,
+                |row| seen.at(places[row]),
+                first,
+            );
         }
         if !self.is_seen_from_origin() {
             first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));

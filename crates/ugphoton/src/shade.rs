@@ -83,7 +83,8 @@ impl<'a> Shader<'a> {
             );
         }
         let surface = point.surface(&scenery.scene).map(|surface| scenery.properties(surface));
-        let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
+        let (diffuse, specular) =
+            surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
         let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, medium, exponent, sample);
         let lit = |color: &SurfaceColor, light: &[Irradiance]| {
@@ -107,12 +108,19 @@ impl<'a> Shader<'a> {
 
     /// Finds the light of each lamp that arrives: for diffuse reflection, and if there is an
     /// exponent, for highlights.
-    fn receive(&mut self, point: &SurfacePoint, medium: Option<Solid>, exponent: Option<f64>, sample: u64) {
+    fn receive(
+        &mut self,
+        point: &SurfacePoint,
+        medium: Option<Solid>,
+        exponent: Option<f64>,
+        sample: u64,
+    ) {
         self.diffuse.clear();
         self.highlights.clear();
         let scenery = self.scenery;
         let element = point.lit(&scenery.scene);
-        let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
+        let (diffuse, highlights, received) =
+            (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
         let has_shadows = scenery.has_lights() && scenery.rays.shadows;
@@ -123,10 +131,12 @@ impl<'a> Shader<'a> {
             let exponent = exponent.filter(|_| (lamp as usize) < scenery.n_own_lamps);
             let is_wanted = has_shadows || exponent.is_some();
             let toward = incident.toward.filter(|_| is_wanted);
-            let way = toward.map(|toward| LampWay::new(scenery, point, lamp, toward, index(lamp as usize)));
+            let way = toward
+                .map(|toward| LampWay::new(scenery, point, lamp, toward, index(lamp as usize)));
             let part = if has_shadows {
                 let corridor = (17 * lamp as usize + point.part) % corridors.len();
-                way.as_ref().map_or(1.0, |way| unshadowed(scenery, point, way, &mut corridors[corridor]))
+                way.as_ref()
+                    .map_or(1.0, |way| unshadowed(scenery, point, way, &mut corridors[corridor]))
             } else {
                 1.0
             };
@@ -137,7 +147,8 @@ impl<'a> Shader<'a> {
             if part <= 0.0 {
                 return;
             }
-            Irradiance { level: level * part, ..incident.irradiance }.add_to(diffuse, &scenery.lamps);
+            Irradiance { level: level * part, ..incident.irradiance }
+                .add_to(diffuse, &scenery.lamps);
             if let (Some(exponent), Some(LampWay { toward, .. })) = (exponent, way) {
                 let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
                 let cos = mirrored.dot(toward_eye).max(0.0);
@@ -148,14 +159,19 @@ impl<'a> Shader<'a> {
             }
         };
         let lamp_shift = scenery.appearance.surface.frames().lamp_shift(element.body);
-        let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
-            _ if has_shadows && lamp.is_area() => Some(lamp.place_on(square_point(sample, row as u64))),
-            (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
-                let toward = ugphysics::unit_or_zero(shifted - seen_from(scenery, point, row));
-                Some(LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64)))
-            }
-            _ => None,
-        };
+        let place =
+            |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
+                _ if has_shadows && lamp.is_area() => {
+                    Some(lamp.place_on(square_point(sample, row as u64)))
+                }
+                (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
+                    let toward = ugphysics::unit_or_zero(shifted - seen_from(scenery, point, row));
+                    Some(LampPlace::At(
+                        place + lamp.radius * disk_point(toward, sample, row as u64),
+                    ))
+                }
+                _ => None,
+            };
         let frames = scenery.appearance.surface.frames();
         for rows in scenery.lamps_of(sample) {
             let first = rows.start as u32;
@@ -208,9 +224,17 @@ impl LampWay {
             // Such a lamp is in the frame of the body's reference point.
             Some((line, own_time)) => {
                 let step = line.pose(own_time).scene_from_axes.apply(Event { t: -1.0, x: toward });
-                Self { toward: ugphysics::unit_or_zero(frame.rest_from_camera(step).x), step, distance }
+                Self {
+                    toward: ugphysics::unit_or_zero(frame.rest_from_camera(step).x),
+                    step,
+                    distance,
+                }
             }
-            None => Self { toward, step: frame.camera_from_rest(Event { t: -index, x: toward }), distance },
+            None => Self {
+                toward,
+                step: frame.camera_from_rest(Event { t: -index, x: toward }),
+                distance,
+            },
         }
     }
 }
@@ -238,22 +262,29 @@ fn unshadowed(
     };
     let mut part = 1.0;
     let mut crossings = Vec::new();
-    let _ = scenery.world.visit_along(scenery.faces(), &ray, 0.0..distance, Some(corridor), |found| {
-        part *= transmittance_at(scenery, &found);
-        if scenery.has_absorption {
-            crossings.extend(Crossing::new(&scenery.world, scenery.faces(), &ray, &found));
-        }
-        if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    });
+    let _ =
+        scenery.world.visit_along(scenery.faces(), &ray, 0.0..distance, Some(corridor), |found| {
+            part *= transmittance_at(scenery, &found);
+            if scenery.has_absorption {
+                crossings.extend(Crossing::new(&scenery.world, scenery.faces(), &ray, &found));
+            }
+            if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
     part *= left_by_solids(scenery, step, crossings, distance);
-    let is_linear = scenery.appearance.is_spectral() || scenery.appearance.hue_shift.law.acts_on_light();
+    let is_linear =
+        scenery.appearance.is_spectral() || scenery.appearance.hue_shift.law.acts_on_light();
     if is_linear { part } else { srgb_encode(part) }
 }
 
 /// The part of the light that solids do not absorb along a straight shadow ray from 0 to `end` in
 /// these steps. Where solids are nested, the innermost absorbs, as along the paths of the light
 /// that is seen.  Eq. (P38)
-fn left_by_solids(scenery: &Scenery<'_>, step: Event, mut crossings: Vec<Crossing>, end: f64) -> f64 {
+fn left_by_solids(
+    scenery: &Scenery<'_>,
+    step: Event,
+    mut crossings: Vec<Crossing>,
+    end: f64,
+) -> f64 {
     crossings.sort_by(|a, b| a.s.total_cmp(&b.s));
     // Solids that the ray leaves without having entered them are those it starts in.
     let mut inside = Media::default();
@@ -264,7 +295,8 @@ fn left_by_solids(scenery: &Scenery<'_>, step: Event, mut crossings: Vec<Crossin
             None => around.push(crossing.solid),
         }
     }
-    let mut inside = around.into_iter().rev().fold(Media::default(), |media, solid| media.with(solid));
+    let mut inside =
+        around.into_iter().rev().fold(Media::default(), |media, solid| media.with(solid));
     let (mut depth, mut from) = (0.0, 0.0);
     for crossing in &crossings {
         depth += (crossing.s - from) * absorption(scenery, inside.innermost(), step);
@@ -294,7 +326,9 @@ fn transmittance_at(scenery: &Scenery<'_>, found: &Intersection) -> f64 {
     let face = &scenery.scene.faces[found.triangle.face as usize];
     if scenery.textures.is_translucent(face.color) && scenery.scene.surface(face).is_none() {
         let at = (found.triangle.corners, found.weights());
-        if let Some(texel) = scenery.textures.texel(&scenery.scene, face.color, at, || [[0.0; 2]; 2]) {
+        if let Some(texel) =
+            scenery.textures.texel(&scenery.scene, face.color, at, || [[0.0; 2]; 2])
+        {
             return texel.translucency;
         }
     }

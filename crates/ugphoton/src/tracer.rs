@@ -186,7 +186,8 @@ impl<'a> Tracer<'a> {
         let mut passing = 1.0;
         let mut next = first;
         while let Some(found) = next {
-            let left = if path.absorption > 0.0 { libm::exp(-path.absorption * found.s) } else { 1.0 };
+            let left =
+                if path.absorption > 0.0 { libm::exp(-path.absorption * found.s) } else { 1.0 };
             if !self.scenery.is_translucent(found.triangle.face) {
                 let point = self.point(path, &found);
                 let part = passing * left;
@@ -223,7 +224,8 @@ impl<'a> Tracer<'a> {
                 // Behind the picture the sky is drawn pixel by pixel.
                 Some(sky) if path.depth > 0 => {
                     let toward = path.ray.step.x.normalize_or_zero();
-                    let [red, green, blue, _] = sky.light(toward, path.width, path.ray.wave.frequency);
+                    let [red, green, blue, _] =
+                        sky.light(toward, path.width, path.ray.wave.frequency);
                     sum.light += passing * DVec3::from([red, green, blue].map(f64::from));
                 }
                 _ => sum.background += passing,
@@ -277,7 +279,10 @@ impl<'a> Tracer<'a> {
                 visit.is_total = surface.transmitted > 0.0 && refracted.is_none();
             }
             let on = Path { way: Way::Mirrored(visit), ..*path };
-            sum.add(mirrored, self.follow(&on, (point, found), (wave, MIRRORED), path.media, mirrored));
+            sum.add(
+                mirrored,
+                self.follow(&on, (point, found), (wave, MIRRORED), path.media, mirrored),
+            );
         }
         if let Some(Refracted { wave, media, .. }) = refracted
             && is_followed(transmitted)
@@ -291,7 +296,10 @@ impl<'a> Tracer<'a> {
                 visit.followed[1] = Some(transmitted);
             }
             let on = Path { way: Way::Refracted(visit), ..*path };
-            sum.add(transmitted, self.follow(&on, (point, found), (wave, REFRACTED), &media, transmitted));
+            sum.add(
+                transmitted,
+                self.follow(&on, (point, found), (wave, REFRACTED), &media, transmitted),
+            );
             if !is_white {
                 self.filters.pop();
             }
@@ -384,7 +392,9 @@ impl<'a> Tracer<'a> {
         let (media, is_inside_unknown) = if point.is_outside {
             (path.media.with(solid), false)
         } else {
-            path.media.without(solid).map_or_else(|| (path.media.clone(), true), |media| (media, false))
+            path.media
+                .without(solid)
+                .map_or_else(|| (path.media.clone(), true), |media| (media, false))
         };
         if is_inside_unknown {
             // The solid is open, so the path did not enter it.

@@ -20,7 +20,11 @@ const SLACK: f64 = 1e-6;
 ///
 /// # Errors
 /// As [`Scenery::new`].
-pub fn visible(scene: &Scene, camera: &CameraOptions, config: &Config) -> Result<Vec<[[f64; 2]; 2]>, Error> {
+pub fn visible(
+    scene: &Scene,
+    camera: &CameraOptions,
+    config: &Config,
+) -> Result<Vec<[[f64; 2]; 2]>, Error> {
     let mut config = config.clone();
     config.picture.samples = 1;
     config.picture.camera = camera.clone();
@@ -41,6 +45,7 @@ pub fn visible(scene: &Scene, camera: &CameraOptions, config: &Config) -> Result
     };
     let contours = scene.wires.par_iter().flat_map_iter(|wire| scene.wire_contours(wire));
     let place = |vertex: &ugscene::VertexId| scene.vertices[vertex.index()].position - view.eye;
-    let lines = contours.flat_map_iter(|line| line.windows(2).map(|ends| [place(&ends[0]), place(&ends[1])]));
+    let lines = contours
+        .flat_map_iter(|line| line.windows(2).map(|ends| [place(&ends[0]), place(&ends[1])]));
     Ok(lines.flat_map_iter(|ends| parts(ends).into_iter().flatten()).collect())
 }

@@ -55,7 +55,8 @@ pub fn ambient_illumination(normal: DVec3, v_sky: Velocity) -> impl Iterator<Ite
             let cos_sky = low + half * (1.0 + node);
             let stretch = 1.0 - beta * cos_sky;
             let cos = ((cos_sky - beta) / stretch).clamp(-1.0, 1.0);
-            let level = 2.0 * half * weight * mean_cosine(along * cos, across * (1.0 - cos * cos).sqrt());
+            let level =
+                2.0 * half * weight * mean_cosine(along * cos, across * (1.0 - cos * cos).sqrt());
             let doppler = v_sky.gamma() * stretch;
             (level > 0.0 && doppler > 0.0).then_some(SkyRing { level, doppler })
         })

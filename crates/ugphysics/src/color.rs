@@ -48,7 +48,11 @@ impl Hsv {
         // In this form `kept` is exactly 1 for attenuation 1, and exactly `attenuation` for
         // saturation 1.
         let kept = (1.0 - self.saturation) + pure;
-        Hsv { saturation: if pure > 0.0 { pure / kept } else { 0.0 }, value: self.value * kept, ..self }
+        Hsv {
+            saturation: if pure > 0.0 { pure / kept } else { 0.0 },
+            value: self.value * kept,
+            ..self
+        }
     }
 
     /// The inverse of [`Hsv::attenuated`]: the colour of the same hue and the same white part that

@@ -66,11 +66,12 @@ fn in_motion(
     let tangential = |field: &Field| {
         DVec4::new(field.e.dot(across), field.e.dot(up), field.h.dot(across), field.h.dot(up))
     };
-    let [incident, reflected, transmitted] = [incident, reflected, transmitted].map(|(wave, medium)| {
-        let own = wave.in_frame(medium.velocity);
-        let (first, second) = crate::unit_or_zero(own.k).any_orthonormal_pair();
-        [first, second].map(|polarisation| Field::of(own, medium, polarisation))
-    });
+    let [incident, reflected, transmitted] =
+        [incident, reflected, transmitted].map(|(wave, medium)| {
+            let own = wave.in_frame(medium.velocity);
+            let (first, second) = crate::unit_or_zero(own.k).any_orthonormal_pair();
+            [first, second].map(|polarisation| Field::of(own, medium, polarisation))
+        });
     let outgoing = DMat4::from_cols(
         tangential(&reflected[0]),
         tangential(&reflected[1]),

@@ -98,7 +98,8 @@ fn spectral_hue(hue_deg: f64) -> f64 {
 /// The first segment, from the red end, whose violet end (wavelength in nm, hue in degrees)
 /// satisfies `reaches`; else the last segment.
 fn segment_where(reaches: impl Fn(f64, f64) -> bool) -> Segment {
-    let mut segments = CONTROL_POINTS.windows(2).map(|ends| Segment { red: ends[0], violet: ends[1] });
+    let mut segments =
+        CONTROL_POINTS.windows(2).map(|ends| Segment { red: ends[0], violet: ends[1] });
     let last = Segment { red: CONTROL_POINTS[5], violet: CONTROL_POINTS[6] };
     segments.find(|s| reaches(s.violet.wavelength_nm, s.violet.hue_deg)).unwrap_or(last)
 }
@@ -122,8 +123,8 @@ impl Segment {
 
     fn hue_at(&self, s: f64) -> f64 {
         let rest = 1.0 - s;
-        let ends =
-            rest * rest * (1.0 + 2.0 * s) * self.red.hue_deg + s * s * (3.0 - 2.0 * s) * self.violet.hue_deg;
+        let ends = rest * rest * (1.0 + 2.0 * s) * self.red.hue_deg
+            + s * s * (3.0 - 2.0 * s) * self.violet.hue_deg;
         ends + s * rest * self.span() * (rest * self.red.slope - s * self.violet.slope)
     }
 

@@ -34,7 +34,10 @@ impl HyperbolicMotion {
         }
         let half = libm::sinh(0.5 * a * proper_time);
         // cosh(aτ) − 1 = 2 sinh²(aτ/2), which does not cancel.
-        Event { t: libm::sinh(a * proper_time) / a, x: self.acceleration * (2.0 * half * half / (a * a)) }
+        Event {
+            t: libm::sinh(a * proper_time) / a,
+            x: self.acceleration * (2.0 * half * half / (a * a)),
+        }
     }
 
     /// The body's velocity at proper time τ = `proper_time`: its rapidity is aτ.  Eq. (P32)

@@ -79,7 +79,12 @@ pub fn illumination_along(way: DVec3, v: Velocity, v_light: Velocity) -> Option<
 
 /// The light of a source at rest at `light` in S'', at the event of S'' at which a surface that
 /// moves with `v` in S scatters it, at `place`. `None` as for [`illumination`].  Eq. (P14)
-pub fn illumination_at(place: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
+pub fn illumination_at(
+    place: DVec3,
+    v: Velocity,
+    light: DVec3,
+    v_light: Velocity,
+) -> Option<IncidentLight> {
     illumination_by(change_view(light - place, v_light, v), light - place)
 }
 
@@ -100,7 +105,11 @@ pub fn illumination_at(place: DVec3, v: Velocity, light: DVec3, v_light: Velocit
 /// assert_eq!(ahead, Some(2.0));
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-pub fn illumination_from_afar(v: Velocity, toward_light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
+pub fn illumination_from_afar(
+    v: Velocity,
+    toward_light: DVec3,
+    v_light: Velocity,
+) -> Option<IncidentLight> {
     let toward_light = toward_light / toward_light.abs().max_element();
     let at_surface = change_view(toward_light, v_light, v);
     let distance = length(at_surface);

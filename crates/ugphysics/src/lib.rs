@@ -91,12 +91,13 @@ pub use lorentz::{Lorentz, compose, compose_rounded, wigner_rotation};
 pub use medium::{Medium, WaveVector};
 pub use rest_frame::RestFrame;
 pub use retarded_position::{
-    Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,
+    Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event,
+    seen_position,
 };
 pub use vector::{angle, length, unit_or_zero};
 pub use velocity::{Velocity, VelocityError};
 pub use world_line::{
-    ElementFrame, EmissionEvent, InertialFrame, Piece, Pose, RayPoint, RayStretch, SampledPath, SeenLight,
-    SeenPoint, SeenTriangle, SmoothStretch, WorldLine, WorldLineError, WorldTube,
+    ElementFrame, EmissionEvent, InertialFrame, Piece, Pose, RayPoint, RayStretch, SampledPath,
+    SeenLight, SeenPoint, SeenTriangle, SmoothStretch, WorldLine, WorldLineError, WorldTube,
 };
 pub use xyz::{MOST_LIGHT, WHITE_XYZ, limited, linear_srgb_to_xyz, xyz_to_linear_srgb};

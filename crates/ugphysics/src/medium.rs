@@ -60,7 +60,10 @@ impl Medium {
         if drag == 0.0 {
             return Event { t: wave.frequency, x: wave.k };
         }
-        Event { t: wave.frequency + drag * self.velocity.gamma(), x: wave.k + drag * self.velocity.proper() }
+        Event {
+            t: wave.frequency + drag * self.velocity.gamma(),
+            x: wave.k + drag * self.velocity.proper(),
+        }
     }
 
     /// The light of frequency 1 that moves along `direction`, a unit vector; `None` if no light in
@@ -89,8 +92,11 @@ impl Medium {
         // (1 − κγ²) T² + 2 κγu_n T = 1 + κu_n²
         let (half, rest) = (kappa * gamma * along, 1.0 + kappa * along * along);
         let root = (rest - kappa * gamma * gamma).sqrt();
-        let time =
-            if half >= 0.0 { rest / (half + root) } else { (root - half) / (1.0 - kappa * gamma * gamma) };
+        let time = if half >= 0.0 {
+            rest / (half + root)
+        } else {
+            (root - half) / (1.0 - kappa * gamma * gamma)
+        };
         let own_time = gamma * time - along;
         // K = N² X − (N² − 1) T' U, up to a factor.
         let drag = contrast * own_time;

@@ -91,7 +91,10 @@ impl RestFrame {
         let (axis, proper_speed) = (self.velocity.direction(), self.velocity.proper_speed());
         let along = x.dot(axis);
         let moved = x + axis * (self.gamma_minus_one * along - proper_speed * t);
-        Event { t: self.velocity.gamma() * t - proper_speed * along, x: self.turned_to_scene(moved) }
+        Event {
+            t: self.velocity.gamma() * t - proper_speed * along,
+            x: self.turned_to_scene(moved),
+        }
     }
 
     /// The inverse of [`RestFrame::rest_from_camera`].
@@ -149,9 +152,8 @@ impl RestFrame {
     pub fn turned_velocity(&self, velocity: Velocity) -> Velocity {
         match self.turn {
             None => velocity,
-            Some(turn) => {
-                Velocity::from_rapidity(turn * velocity.direction(), velocity.rapidity()).unwrap_or(velocity)
-            }
+            Some(turn) => Velocity::from_rapidity(turn * velocity.direction(), velocity.rapidity())
+                .unwrap_or(velocity),
         }
     }
 

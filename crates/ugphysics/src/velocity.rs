@@ -37,8 +37,13 @@ pub struct Velocity {
 
 impl Velocity {
     /// At rest.
-    pub const ZERO: Velocity =
-        Velocity { axis: DVec3::X, direction: DVec3::X, beta: DVec3::ZERO, gamma: 1.0, proper_speed: 0.0 };
+    pub const ZERO: Velocity = Velocity {
+        axis: DVec3::X,
+        direction: DVec3::X,
+        beta: DVec3::ZERO,
+        gamma: 1.0,
+        proper_speed: 0.0,
+    };
 
     /// The largest accepted rapidity, at which 1 − β is about 10⁻⁸⁷. The bound keeps products of
     /// several γ finite.
@@ -145,7 +150,8 @@ impl Velocity {
     pub fn rounded(self) -> Velocity {
         let by_beta = |velocity: Velocity| {
             let rounded = Velocity::from_beta(velocity.beta).ok();
-            rounded.filter(|rounded| (rounded.gamma - velocity.gamma).abs() <= 1e-12 * velocity.gamma)
+            rounded
+                .filter(|rounded| (rounded.gamma - velocity.gamma).abs() <= 1e-12 * velocity.gamma)
         };
         let by_gamma = || {
             let velocity = Velocity::from_gamma(self.axis, self.gamma).ok()?;
@@ -213,7 +219,13 @@ impl Velocity {
         } else {
             axis
         };
-        Ok(Velocity { axis, direction, beta: direction * (proper_speed / gamma), gamma, proper_speed })
+        Ok(Velocity {
+            axis,
+            direction,
+            beta: direction * (proper_speed / gamma),
+            gamma,
+            proper_speed,
+        })
     }
 
     /// **β**, the velocity in fractions of the speed of light; exactly the vector passed to

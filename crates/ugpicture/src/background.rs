@@ -24,7 +24,9 @@ impl Backdrop {
     pub fn new(background: Background, samples: u32) -> Self {
         let light = match background {
             Background::Transparent => None,
-            Background::Color(color) => Some(color.to_rgb().map(|channel| srgb_decode(channel) as f32)),
+            Background::Color(color) => {
+                Some(color.to_rgb().map(|channel| srgb_decode(channel) as f32))
+            }
         };
         Self { light, n_samples: (samples * samples) as f32 }
     }
@@ -37,7 +39,10 @@ impl Backdrop {
     /// Converts the mean light of pixels, and the covered part of it, for a display. The exposure
     /// and the tone curve are those of the scene: before and beside it the background keeps its
     /// colour.
-    pub fn converter(&self, development: Development) -> impl Fn([f32; 4]) -> [f32; 3] + Sync + use<> {
+    pub fn converter(
+        &self,
+        development: Development,
+    ) -> impl Fn([f32; 4]) -> [f32; 3] + Sync + use<> {
         let convert = development.converter();
         let is_plain = development == Development::default();
         let behind = self.light.filter(|light| !is_plain && *light != [0.0; 3]);
@@ -87,21 +92,27 @@ mod tests {
     fn the_background_is_not_developed() {
         let development = Development { stops: -2.0, tone: Tone::Filmic };
         for value in [1.0, 0.5] {
-            let backdrop = Backdrop::new(Background::Color(Hsv { hue: 0.0, saturation: 0.0, value }), 2);
+            let backdrop =
+                Backdrop::new(Background::Color(Hsv { hue: 0.0, saturation: 0.0, value }), 2);
             let convert = backdrop.converter(development);
             let behind = backdrop.light().unwrap();
             let scene = [3.0, 1.0, 0.25];
             let alone = development.apply(scene);
             for n_covered in [0.0, 1.0, 3.0, 4.0] {
                 let part = n_covered / 4.0;
-                let found = convert(backdrop.pixel(scene.map(|light| light * n_covered), n_covered));
+                let found =
+                    convert(backdrop.pixel(scene.map(|light| light * n_covered), n_covered));
                 for channel in 0..3 {
                     let expected = part * alone[channel] + (1.0 - part) * behind[channel];
-                    assert!((found[channel] - expected).abs() < 1e-6, "{value} {n_covered}: {found:?}");
+                    assert!(
+                        (found[channel] - expected).abs() < 1e-6,
+                        "{value} {n_covered}: {found:?}"
+                    );
                 }
             }
         }
-        let black = Backdrop::new(Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), 1);
+        let black =
+            Backdrop::new(Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), 1);
         assert_eq!(black.converter(development)([0.5, 0.5, 0.5, 0.5]), development.apply([0.5; 3]));
     }
 }

@@ -80,19 +80,23 @@ fn planes(
     seen: &(impl Fn(usize) -> Option<SeenItem> + Sync),
 ) -> Vec<Plane> {
     let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
-        let number = |idx: usize| seen(idx).map_or(nothing, |(_, emission)| finite(number(&emission)));
+        let number =
+            |idx: usize| seen(idx).map_or(nothing, |(_, emission)| finite(number(&emission)));
         Samples::Float((0..n_pixels).into_par_iter().map(number).collect())
     };
     let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
     let name = channel.name();
     let axes = |vector: &(dyn Fn(&Emission) -> DVec3 + Sync)| {
-        let axis = |(axis, letter)| plane(&format!("{name}.{letter}"), of(&move |e| vector(e)[axis], 0.0));
+        let axis =
+            |(axis, letter)| plane(&format!("{name}.{letter}"), of(&move |e| vector(e)[axis], 0.0));
         ["X", "Y", "Z"].into_iter().enumerate().map(axis).collect()
     };
     match channel {
         Channel::Doppler => vec![plane(name, of(&Emission::doppler, 0.0))],
         Channel::Time => vec![plane(name, of(&|emission| emission.time, f32::NEG_INFINITY))],
-        Channel::Distance => vec![plane(name, of(&|emission| length(emission.place), f32::INFINITY))],
+        Channel::Distance => {
+            vec![plane(name, of(&|emission| length(emission.place), f32::INFINITY))]
+        }
         Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],
         Channel::Id => {
             let id = |idx: usize| seen(idx).map_or(0, |(item, _)| item.saturating_add(1));

@@ -13,7 +13,9 @@ use ugimage::{Filter, Format, Tone, spelled_color};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source, pipe};
 use ugphysics::Hsv;
-use ugpipe::{Context, Failure, PIXELS_PER_INCH, Preset, Side, Words, finite, number, one_of, whole};
+use ugpipe::{
+    Context, Failure, PIXELS_PER_INCH, Preset, Side, Words, finite, number, one_of, whole,
+};
 use ugscene::cli::{CameraArgs, ShiftArgs};
 
 use crate::background::Background;
@@ -116,7 +118,8 @@ fn is_linear(matches: &ArgMatches) -> bool {
 
 impl PictureArgs {
     /// Exposure as a camera finds it, for the looks of a program.
-    pub const AUTO_EXPOSURE: Preset = Preset::new(&["ex", "auto"], &["crop"]).with(|all| !is_linear(all));
+    pub const AUTO_EXPOSURE: Preset =
+        Preset::new(&["ex", "auto"], &["crop"]).with(|all| !is_linear(all));
 
     /// A filmic tone curve, for the looks of a program.
     pub const FILMIC: Preset = Preset::new(&["tc", "filmic"], &[]).with(|all| !is_linear(all));
@@ -125,7 +128,11 @@ impl PictureArgs {
     ///
     /// # Errors
     /// The background is not a valid colour.
-    pub fn options(&self, output: Output, annotations: AnnotationOptions) -> Result<PictureOptions, Failure> {
+    pub fn options(
+        &self,
+        output: Output,
+        annotations: AnnotationOptions,
+    ) -> Result<PictureOptions, Failure> {
         let per_inch = if let Output::Vector(_) = output { 72.0 } else { PIXELS_PER_INCH };
         Ok(PictureOptions {
             camera: self.camera.options(),
@@ -286,18 +293,25 @@ pub struct AnnotationArgs {
 }
 
 fn text_size(pixels: f64) -> Result<f64, String> {
-    if (4.0..=200.0).contains(&pixels) { Ok(pixels) } else { Err("text is 4 to 200 pixels large".to_owned()) }
+    if (4.0..=200.0).contains(&pixels) {
+        Ok(pixels)
+    } else {
+        Err("text is 4 to 200 pixels large".to_owned())
+    }
 }
 
 /// The quantity and the numbers of -map or -iso.
 fn quantity_numbers(option: &str, words: &[String]) -> Result<(Quantity, Vec<f64>), Failure> {
     let names = Quantity::NAMES.map(|(name, _)| name).join(", ");
     let quantity = |word: &String| Quantity::NAMES.into_iter().find(|(name, _)| name == word);
-    let unknown =
-        |word: &str| Failure::usage(format!("{option}: `{word}` is neither a number nor one of {names}"));
+    let unknown = |word: &str| {
+        Failure::usage(format!("{option}: `{word}` is neither a number nor one of {names}"))
+    };
     let number = |word: &String| finite(word).map_err(|_| unknown(word));
     let Some((_, quantity)) = words.first().and_then(quantity) else {
-        return Err(Failure::usage(format!("{option} has one quantity first, then numbers: one of {names}")));
+        return Err(Failure::usage(format!(
+            "{option} has one quantity first, then numbers: one of {names}"
+        )));
     };
     let numbers = words[1..].iter().map(number).collect::<Result<Vec<f64>, Failure>>()?;
     if quantity == Quantity::Doppler && numbers.iter().any(|number| *number <= 0.0) {
@@ -317,7 +331,11 @@ impl AnnotationArgs {
             let range = match numbers[..] {
                 [] => None,
                 [low, high] if low < high => Some([low, high]),
-                _ => return Err(Failure::usage("-map has two numbers or none, the lower one first")),
+                _ => {
+                    return Err(Failure::usage(
+                        "-map has two numbers or none, the lower one first",
+                    ));
+                }
             };
             Ok::<_, Failure>(MapOptions { quantity, range })
         };
@@ -342,7 +360,9 @@ impl AnnotationArgs {
 }
 
 /// The shift of colours that these arguments define.
-pub fn color_shift(&ShiftArgs { br, sp, no_doppler, no_flux, infrared_rule }: &ShiftArgs) -> ColorShift {
+pub fn color_shift(
+    &ShiftArgs { br, sp, no_doppler, no_flux, infrared_rule }: &ShiftArgs,
+) -> ColorShift {
     ColorShift::new(sp, !no_doppler, !no_flux, br).with_infrared(infrared_rule.unwrap_or_default())
 }
 
@@ -390,8 +410,9 @@ pub fn kinds() -> impl Iterator<Item = (&'static str, Kind)> {
 /// # Errors
 /// These are not two numbers.
 pub fn pixel(word: &str) -> Result<Pixel, String> {
-    let numbers =
-        word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    let numbers = word
+        .split_once(',')
+        .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     numbers.ok_or_else(|| "a pixel is its column and row, such as 320,240".to_owned())
 }
 
@@ -410,18 +431,21 @@ pub fn picture_format(
         Some(Kind::Picture(format)) => Ok(format),
         None => format_for(None, file),
         Some(Kind::Report(_)) => Err(Failure::Usage(
-            "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures".into(),
+            "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures"
+                .into(),
         )),
     }
 }
 
 /// The format of the explanation. `given`: with -dt. `file`: the output.
 fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<ExplanationFormat, Failure> {
-    let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    let is_json =
+        |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     match given {
         Some(Kind::Report(report)) => Ok(report),
         Some(Kind::Picture(_)) => Err(Failure::Usage(
-            "a pixel is explained as text or JSON: give --format json, or leave --format out".into(),
+            "a pixel is explained as text or JSON: give --format json, or leave --format out"
+                .into(),
         )),
         None if file.is_some_and(is_json) => Ok(ExplanationFormat::Json),
         None => Ok(ExplanationFormat::Text),
@@ -472,7 +496,8 @@ pub fn format_for(given: Option<Format>, file: Option<&Path>) -> Result<Format, 
 pub fn refuse_terminal(format: Format, context: &Context) -> Result<(), Failure> {
     if context.output_is_terminal() && format.is_binary() {
         return Err(Failure::Usage(
-            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
+            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE"
+                .into(),
         ));
     }
     Ok(())
@@ -482,7 +507,11 @@ pub fn refuse_terminal(format: Format, context: &Context) -> Result<(), Failure>
 ///
 /// # Errors
 /// The output cannot be written.
-pub fn write_picture(picture: &PictureFile, size: [u32; 2], context: &mut Context) -> Result<(), Failure> {
+pub fn write_picture(
+    picture: &PictureFile,
+    size: [u32; 2],
+    context: &mut Context,
+) -> Result<(), Failure> {
     if !picture.warnings.is_empty() {
         context.report(&picture.warnings.report());
     }
@@ -529,7 +558,8 @@ fn exposure(word: &str) -> Result<Exposure, String> {
 fn channels(list: &str) -> Result<Channels, String> {
     let mut channels = Vec::new();
     for name in list.split(',') {
-        let Some((_, channel)) = Channel::NAMES.into_iter().find(|(known, _)| *known == name) else {
+        let Some((_, channel)) = Channel::NAMES.into_iter().find(|(known, _)| *known == name)
+        else {
             let names = Channel::NAMES.map(|(name, _)| name).join(", ");
             return Err(format!("`{name}` is none of the channels {names}"));
         };

@@ -115,8 +115,8 @@ impl<'a> Emissions<'a> {
         let surface = seen[idx]?;
         // The sample nearest to the centre; ties go to the lower-right one. A picture has fewer
         // than 2^32 pixels.
-        let middle =
-            [idx % width as usize, idx / width as usize].map(|pixel| pixel as u32 * samples + samples / 2);
+        let middle = [idx % width as usize, idx / width as usize]
+            .map(|pixel| pixel as u32 * samples + samples / 2);
         Some((surface.item, self.at(middle, surface)))
     }
 }

@@ -57,7 +57,11 @@ impl Image {
                         *shown = last.1;
                     }
                 });
-                Self::Display(Frame::new([light.width(), light.height()], light.is_opaque(), pixels))
+                Self::Display(Frame::new(
+                    [light.width(), light.height()],
+                    light.is_opaque(),
+                    pixels,
+                ))
             }
             None if is_deep => Self::Light(light),
             None => Self::Display(light.to_display()),
@@ -74,7 +78,12 @@ impl Image {
     }
 
     /// The bytes of a file. Vector formats contain the pixels as an image.
-    pub fn into_file(self, output: Output, metadata: &Metadata, compression: Compression) -> Vec<u8> {
+    pub fn into_file(
+        self,
+        output: Output,
+        metadata: &Metadata,
+        compression: Compression,
+    ) -> Vec<u8> {
         match self {
             Self::Display(frame) => output.format().encode_with(&frame, metadata, compression),
             Self::Light(frame) => output.format().encode_linear(&frame, metadata, compression),

@@ -111,7 +111,8 @@ impl Film {
     #[must_use]
     pub fn turned(mut self, turn: DQuat) -> Self {
         self.pinhole = self.pinhole.map(|direction| turn * direction);
-        [self.right, self.up, self.forward] = [self.right, self.up, self.forward].map(|axis| turn * axis);
+        [self.right, self.up, self.forward] =
+            [self.right, self.up, self.forward].map(|axis| turn * axis);
         self
     }
 
@@ -249,8 +250,9 @@ pub(super) mod tests {
         let text = "v a 0 1 0; cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1;";
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default());
-        let view =
-            scene.ok().and_then(|parsed| View::new(&parsed.scene, &CameraOptions::default(), samples).ok());
+        let view = scene
+            .ok()
+            .and_then(|parsed| View::new(&parsed.scene, &CameraOptions::default(), samples).ok());
         let Some(view) = view else { panic!("a camera") };
         Film::new(lens, stereo, &view, samples)
     }
@@ -258,8 +260,9 @@ pub(super) mod tests {
     #[track_caller]
     fn check(lens: Lens, place: [f64; 2], expected: DVec3) {
         let found = film(lens, None, [40, 20]).sight(place);
-        let is_there =
-            |found: Sight| found.eye == DVec3::ZERO && (found.direction - expected).length() < 1e-15;
+        let is_there = |found: Sight| {
+            found.eye == DVec3::ZERO && (found.direction - expected).length() < 1e-15
+        };
         assert!(found.is_some_and(is_there), "{found:?}");
     }
 
@@ -348,8 +351,9 @@ pub(super) mod tests {
     fn eyes_are_apart_across_the_view() {
         let check = |lens: Lens, place: [f64; 2], eye: DVec3, direction: DVec3| {
             let found = film(lens, Some(0.5), [40, 20]).sight(place);
-            let is_there =
-                |found: Sight| (found.eye - eye).length() + (found.direction - direction).length() < 1e-15;
+            let is_there = |found: Sight| {
+                (found.eye - eye).length() + (found.direction - direction).length() < 1e-15
+            };
             assert!(found.is_some_and(is_there), "{found:?}");
         };
         let half = 0.25;

@@ -41,8 +41,9 @@ impl LevelCounts {
     /// transparent.
     fn of_pixels(pixels: &[[u8; 4]], background: Option<[f32; 3]>) -> Self {
         let background = color_of(background, &Quantizer::new());
-        let of_chunk =
-            |chunk: &[[u8; 4]]| Self::of(chunk.iter().map(|&pixel| (pixel, pixel[3] > 0)), background);
+        let of_chunk = |chunk: &[[u8; 4]]| {
+            Self::of(chunk.iter().map(|&pixel| (pixel, pixel[3] > 0)), background)
+        };
         pixels.par_chunks(CHUNK).map(of_chunk).reduce(Self::default, Self::plus)
     }
 
@@ -90,7 +91,8 @@ impl LevelCounts {
     /// where surfaces may be white, and is rare with an automatic exposure but for lines.
     fn note(&self, picture: &PictureOptions) -> Option<Note> {
         let Self { n_pixels, n_covered, n_seen, n_visible, n_white } = *self;
-        let [n_pixels, n_seen, n_visible, n_white] = [n_pixels, n_seen, n_visible, n_white].map(u64::from);
+        let [n_pixels, n_seen, n_visible, n_white] =
+            [n_pixels, n_seen, n_visible, n_white].map(u64::from);
         if n_covered == 0 {
             return None;
         }
@@ -106,7 +108,8 @@ const COLOR: u32 = u32::from_le_bytes([255, 255, 255, 0]);
 
 /// The background as it is in pixels; a number that no colour has if it is transparent.
 fn color_of(background: Option<[f32; 3]>, quantizer: &Quantizer) -> u32 {
-    let [red, green, blue] = background.map_or([0.0; 3], |light| light).map(|part| quantizer.level(part));
+    let [red, green, blue] =
+        background.map_or([0.0; 3], |light| light).map(|part| quantizer.level(part));
     if background.is_none() { u32::MAX } else { u32::from_le_bytes([red, green, blue, 0]) }
 }
 
@@ -117,8 +120,9 @@ fn may_be_overexposed(picture: &PictureOptions) -> bool {
 /// True if so many pixels are visible that a picture is not nearly black. Few have to be looked at.
 fn is_bright(pixels: &[[u8; 4]]) -> bool {
     let enough = pixels.len().div_ceil(FEW as usize);
-    let is_visible =
-        |[red, green, blue, alpha]: &&[u8; 4]| u32::from(*alpha.min(red.max(green).max(blue))) >= VISIBLE;
+    let is_visible = |[red, green, blue, alpha]: &&[u8; 4]| {
+        u32::from(*alpha.min(red.max(green).max(blue))) >= VISIBLE
+    };
     pixels.iter().filter(is_visible).take(enough).count() == enough
 }
 
@@ -129,7 +133,9 @@ pub fn of_image(image: &Image, picture: &PictureOptions) -> Option<Note> {
     }
     let background = Backdrop::new(picture.background, 1).light();
     let counts = match image {
-        Image::Display(frame) if !may_be_overexposed(picture) && is_bright(frame.pixels()) => return None,
+        Image::Display(frame) if !may_be_overexposed(picture) && is_bright(frame.pixels()) => {
+            return None;
+        }
         Image::Display(frame) => LevelCounts::of_pixels(frame.pixels(), background),
         Image::Light(light) => LevelCounts::of_light(light, background),
     };
@@ -183,9 +189,14 @@ mod tests {
 
     #[test]
     fn a_transparent_picture_has_no_background() {
-        let transparent = PictureOptions { background: Background::Transparent, ..PictureOptions::default() };
-        let pixels = |light: f32| LinearFrame::new([9, 1], false, vec![[light, light, light, 1.0]; 9]);
-        assert_eq!(levels_note(&pixels(0.0), &transparent), Some(Note::NearlyBlack { is_exposed: false }));
+        let transparent =
+            PictureOptions { background: Background::Transparent, ..PictureOptions::default() };
+        let pixels =
+            |light: f32| LinearFrame::new([9, 1], false, vec![[light, light, light, 1.0]; 9]);
+        assert_eq!(
+            levels_note(&pixels(0.0), &transparent),
+            Some(Note::NearlyBlack { is_exposed: false })
+        );
         assert_eq!(levels_note(&pixels(0.5), &transparent), None);
     }
 

@@ -24,7 +24,8 @@ pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
 /// the clipping planes.
 pub fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
     let sides = view.half_spaces().into_iter().flatten();
-    let [start, end] = clip_line(sides.map(|side| [a, b].map(|end| side.normal.dot(end) + side.offset)))?;
+    let [start, end] =
+        clip_line(sides.map(|side| [a, b].map(|end| side.normal.dot(end) + side.offset)))?;
     Some([start, end].map(|part| a + (b - a) * part))
 }
 
@@ -53,7 +54,11 @@ pub fn visible_parts(
     // At least one, and in range.
     let n_steps = (length / STEP).ceil().clamp(1.0, MOST_STEPS) as u32;
     let at = |step: u32| {
-        if step == n_steps { end } else { start + (end - start) * f64::from(step) / f64::from(n_steps) }
+        if step == n_steps {
+            end
+        } else {
+            start + (end - start) * f64::from(step) / f64::from(n_steps)
+        }
     };
     let is_visible = |step: &u32| {
         let part = 0.5 * (at(*step) + at(step + 1));

@@ -56,7 +56,9 @@ pub enum Note {
     #[error("wires are left out: rays do not meet lines")]
     NoWires,
     /// Round faces of bodies on world lines are drawn as polygons.
-    #[error("round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius")]
+    #[error(
+        "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
+    )]
     CutRounds,
     /// The up direction is zero or parallel to the view.
     #[error("the up direction is zero or parallel to the view, so another axis is up")]

@@ -117,7 +117,9 @@ impl PictureOptions {
             return Ok(());
         }
         let refused = |_| Error::Memory(self.size, bytes);
-        Vec::<u8>::new().try_reserve_exact(usize::try_from(bytes).unwrap_or(usize::MAX)).map_err(refused)
+        Vec::<u8>::new()
+            .try_reserve_exact(usize::try_from(bytes).unwrap_or(usize::MAX))
+            .map_err(refused)
     }
 
     /// Memory for a pixel while the file is written: as light, and in the file before packing.

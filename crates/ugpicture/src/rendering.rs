@@ -61,7 +61,13 @@ impl Rendering {
         metadata: Metadata,
         notes: Vec<Note>,
     ) -> Self {
-        Self { content, output: options.output, compression: options.compression(), metadata, notes }
+        Self {
+            content,
+            output: options.output,
+            compression: options.compression(),
+            metadata,
+            notes,
+        }
     }
 
     /// The bytes of a file of the kind that the options ask for.

@@ -30,7 +30,8 @@ pub fn shared_edges<T: Send>(
     take: impl Fn(&[&FaceEdge]) -> Option<T> + Sync,
 ) -> Vec<T> {
     let edges = sorted_edges(scene, places, is_counted);
-    let is_one = |one: &FaceEdge, other: &FaceEdge| (one.places, one.body) == (other.places, other.body);
+    let is_one =
+        |one: &FaceEdge, other: &FaceEdge| (one.places, one.body) == (other.places, other.body);
     let shared: Vec<&[FaceEdge]> = edges.chunk_by(is_one).collect();
     let taken = |shared: &&[FaceEdge]| {
         // A sliver between vertices at one place runs there and back.
@@ -47,7 +48,8 @@ fn sorted_edges(scene: &Scene, places: &[usize], is_counted: &IsCounted<'_>) -> 
         let edge = |ends: [VertexId; 2]| {
             let [a, b] = ends.map(|end| places[end.index()]);
             let is_forward = a < b;
-            let (ends, places) = if is_forward { (ends, [a, b]) } else { ([ends[1], ends[0]], [b, a]) };
+            let (ends, places) =
+                if is_forward { (ends, [a, b]) } else { ([ends[1], ends[0]], [b, a]) };
             // The text of a scene is below 4 GiB, so row numbers fit.
             FaceEdge { ends, face: row as u32, places, is_forward, body: face.body }
         };
@@ -82,6 +84,10 @@ impl Fold {
         let cosine = normals[0].zip(normals[1]).map_or(1.0, |(one, other)| one.dot(other));
         let is_turned = one.is_forward == other.is_forward;
         let is_in_hole = is_turned && cosine > Self::FLAT;
-        Self { cosine: if is_turned && !is_in_hole { -cosine } else { cosine }, is_turned, is_in_hole }
+        Self {
+            cosine: if is_turned && !is_in_hole { -cosine } else { cosine },
+            is_turned,
+            is_in_hole,
+        }
     }
 }

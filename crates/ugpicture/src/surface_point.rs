@@ -144,8 +144,12 @@ impl SurfacePoint {
         let is_outside = outside_in_frame.dot(step) <= 0.0;
         let side = if is_outside { 1.0 } else { -1.0 };
         let (plane, plane_normal) = (side * outside, side * outside_in_frame);
-        let (body_normal, body_lift) =
-            smooth(surfaces.scene, (found.triangle.corners, found.weights()), (places, place), plane);
+        let (body_normal, body_lift) = smooth(
+            surfaces.scene,
+            (found.triangle.corners, found.weights()),
+            (places, place),
+            plane,
+        );
         let lift = if body_lift == DVec3::ZERO {
             DVec3::ZERO
         } else {
@@ -154,7 +158,8 @@ impl SurfacePoint {
         let event = along(ray.origin, ray.step, found.s);
         let triangle = SurfaceElementPlane { frame: &frame, normal: plane_normal, event, places };
         let steps = || {
-            neighbours().map_or([[0.0; 2]; 2], |rays| triangle.steps(rays, |step| to_body(&element, step)))
+            neighbours()
+                .map_or([[0.0; 2]; 2], |rays| triangle.steps(rays, |step| to_body(&element, step)))
         };
         let (color, emitted) = surfaces.colors(found, true, || own_time, steps);
         Self {
@@ -226,7 +231,12 @@ impl SurfacePoint {
             Some(element) => (ScatteringTime::Own(element.own_time), element.body_normal),
             None => (ScatteringTime::Delay(self.delay), self.normal),
         };
-        SurfaceElement { point: self.place, time, normal, body: scene.faces[self.face as usize].body }
+        SurfaceElement {
+            point: self.place,
+            time,
+            normal,
+            body: scene.faces[self.face as usize].body,
+        }
     }
 
     /// D, from here to the eye: the product over all changes of frame along the path. Light of a
@@ -280,10 +290,12 @@ impl Surfaces<'_> {
         if textures.is_empty() && scene.emissions.is_empty() && scene.color_tables.is_empty() {
             return (of_corners(), None);
         }
-        let now = |color: Option<ColorId>| appearance.color_at_time(scene, color?, own_time(), is_moving);
+        let now =
+            |color: Option<ColorId>| appearance.color_at_time(scene, color?, own_time(), is_moving);
         let at = Some((corners, weights));
         let [texel, emitted] = textures.colors((scene, appearance), color, at, is_moving, steps);
-        let emitted = emitted.map(|it| now(color.and_then(|color| scene.emitted_by(color))).unwrap_or(it));
+        let emitted =
+            emitted.map(|it| now(color.and_then(|color| scene.emitted_by(color))).unwrap_or(it));
         (texel.or_else(|| now(color)).unwrap_or_else(of_corners), emitted.map(Box::new))
     }
 }

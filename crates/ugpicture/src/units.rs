@@ -38,8 +38,14 @@ const TIMES: [(&str, f64); 9] = [
 ];
 
 /// Units of speed in m/s.
-const SPEEDS: [(&str, f64); 6] =
-    [("mm/s", 1e-3), ("cm/s", 0.01), ("m/s", 1.0), ("km/s", 1e3), ("km/h", 1.0 / 3.6), ("mph", 0.447_04)];
+const SPEEDS: [(&str, f64); 6] = [
+    ("mm/s", 1e-3),
+    ("cm/s", 0.01),
+    ("m/s", 1.0),
+    ("km/s", 1e3),
+    ("km/h", 1.0 / 3.6),
+    ("mph", 0.447_04),
+];
 
 /// The units in the texts of a picture. Without any, lengths and times are those of the scene, and
 /// speeds have the unit c.
@@ -111,12 +117,14 @@ fn split(words: &str) -> Result<(f64, &str), String> {
     let is_name = |c: char| !(c.is_ascii_digit() || c == '.' || c == ' ');
     // An exponent is part of the number: a digit follows its letter.
     let exponent = |at: usize| {
-        let rest = words[at..].strip_prefix(['e', 'E']).map(|rest| rest.trim_start_matches(['+', '-']));
+        let rest =
+            words[at..].strip_prefix(['e', 'E']).map(|rest| rest.trim_start_matches(['+', '-']));
         rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
     };
     let mut start = words.find(is_name).unwrap_or(words.len());
     if start > 0 && start < words.len() && exponent(start) {
-        let digits = words[start + 1..].find(|c: char| !(c.is_ascii_digit() || c == '+' || c == '-'));
+        let digits =
+            words[start + 1..].find(|c: char| !(c.is_ascii_digit() || c == '+' || c == '-'));
         start = digits.map_or(words.len(), |at| start + 1 + at);
     }
     let (number, name) = (words[..start].trim(), words[start..].trim());
@@ -130,15 +138,20 @@ fn split(words: &str) -> Result<(f64, &str), String> {
 fn length_of_one(words: &str, light: f64) -> Result<(Unit, f64), String> {
     let (number, name) = split(words)?;
     let of_light = |name: &str| {
-        let (_, seconds) = LIGHT_TIMES.iter().find(|(time, _)| name.strip_prefix('l') == Some(time))?;
+        let (_, seconds) =
+            LIGHT_TIMES.iter().find(|(time, _)| name.strip_prefix('l') == Some(time))?;
         Some(seconds * light)
     };
-    let plain = |name: &str| LENGTHS.iter().find(|(known, _)| *known == name).map(|(_, metres)| *metres);
+    let plain =
+        |name: &str| LENGTHS.iter().find(|(known, _)| *known == name).map(|(_, metres)| *metres);
     let name = if name == "um" { "µm" } else { name };
     let metres = plain(name).or_else(|| of_light(name)).ok_or_else(|| {
         let names = LENGTHS.iter().map(|(name, _)| (*name).to_owned());
         let of_light = LIGHT_TIMES.iter().map(|(name, _)| format!("l{name}"));
-        format!("`{name}` is none of the units {}", names.chain(of_light).collect::<Vec<_>>().join(", "))
+        format!(
+            "`{name}` is none of the units {}",
+            names.chain(of_light).collect::<Vec<_>>().join(", ")
+        )
     })?;
     in_range(number * metres, words)?;
     Ok((Unit { factor: number, name: name.to_owned() }, number * metres))
@@ -193,7 +206,9 @@ mod tests {
 
     #[test]
     fn what_is_no_unit_is_refused() {
-        for words in ["", "furlong", "0 m", "-1 m", "1e999 m", "1e300 m", "m m", "nan m", "1 e5", "km/h"] {
+        for words in
+            ["", "furlong", "0 m", "-1 m", "1e999 m", "1e300 m", "m m", "nan m", "1 e5", "km/h"]
+        {
             assert!(Units::new(Some(words), None).is_err(), "{words}");
         }
         for words in ["", "30", "0km/h", "30 m", "c", "1e-99 m/s"] {

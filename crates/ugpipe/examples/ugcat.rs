@@ -103,7 +103,9 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         None => Ok(()),
         Some(Way::Usage) => Err(Failure::usage("`-vel` is too fast; stay below 1")),
         Some(Way::Work) => Ok("ten".parse::<i32>().map(drop)?),
-        Some(Way::Report) => Err(Failure::Report("\x1b[1merror\x1b[0m: no face\n --> x.ug:1:2".to_owned())),
+        Some(Way::Report) => {
+            Err(Failure::Report("\x1b[1merror\x1b[0m: no face\n --> x.ug:1:2".to_owned()))
+        }
     }
 }
 

@@ -52,14 +52,16 @@ pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
 pub const NOTHING_IN_FRONT: &str = "{}; try `uglorentz --keep-in-view`, another -ep or -vc";
 
 /// Nothing is in the picture.
-pub const NOTHING_IN_PICTURE: &str = "{}; try `uglorentz --keep-in-view`, another -vc or a wider -va";
+pub const NOTHING_IN_PICTURE: &str =
+    "{}; try `uglorentz --keep-in-view`, another -vc or a wider -va";
 
 /// Most or everything is shifted out of the visible range.
 pub const OUT_OF_RANGE: &str =
     "{}; give ugdoppler and ugrainbow -look light, or -look shape to see the shape";
 
 /// A look is given to a program without colours.
-pub const LOOK_DOWNSTREAM: &str = "{} has no effect on positions: give it to ugdoppler and ugrainbow";
+pub const LOOK_DOWNSTREAM: &str =
+    "{} has no effect on positions: give it to ugdoppler and ugrainbow";
 
 /// Vertices have colours as seen, so they cannot be repeated for the colours of faces.
 pub const REPEAT_EARLIER: &str =
@@ -77,9 +79,8 @@ pub fn convert_mesh(file: Option<&str>) -> String {
 /// The input is a picture. `file`: its name, if it is not standard input.
 pub fn picture_is_complete(file: Option<&str>) -> String {
     match file {
-        None => {
-            "the program before this one in the pipe has drawn the picture: leave this one out".to_owned()
-        }
+        None => "the program before this one in the pipe has drawn the picture: leave this one out"
+            .to_owned(),
         Some(file) => format!(
             "`ugwarp {file}` shows it as the sky around an observer in motion; if it was drawn of a scene, give that: \
              `ugsheet --history {file}` prints its name"

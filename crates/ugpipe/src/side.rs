@@ -47,15 +47,19 @@ impl Side {
     /// No whole number, and no length of at most 1000 inches.
     pub fn parse(word: &str) -> Result<Self, String> {
         const UNITS: [(&str, f64); 4] = [("mm", 25.4), ("cm", 2.54), ("in", 1.0), ("pt", 72.0)];
-        let length = UNITS.iter().find_map(|(unit, per_inch)| Some((word.strip_suffix(unit)?, per_inch)));
+        let length =
+            UNITS.iter().find_map(|(unit, per_inch)| Some((word.strip_suffix(unit)?, per_inch)));
         let Some((number, per_inch)) = length else {
             let number = word.parse().ok().filter(|&number| number >= 1).map(Self::Whole);
-            return number.ok_or_else(|| "must be a whole number, 1 or more, or a length: 6cm".to_owned());
+            return number
+                .ok_or_else(|| "must be a whole number, 1 or more, or a length: 6cm".to_owned());
         };
         let inches = number.parse().map(|number: f64| number / per_inch);
         // NaN is outside.
         let inches = inches.ok().filter(|inches| *inches > 0.0 && *inches <= 1000.0);
-        inches.map(Self::Inches).ok_or_else(|| "must be a length above 0 and of at most 1000 in".to_owned())
+        inches
+            .map(Self::Inches)
+            .ok_or_else(|| "must be a length above 0 and of at most 1000 in".to_owned())
     }
 }
 

@@ -79,7 +79,9 @@ pub(crate) fn printable_json(json: &str) -> String {
         if c == '\n' || is_printable(c) {
             shown.push(c);
         } else {
-            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| shown.push_str(&format!("\\u{unit:04x}")));
+            c.encode_utf16(&mut [0; 2])
+                .iter()
+                .for_each(|unit| shown.push_str(&format!("\\u{unit:04x}")));
         }
     }
     shown

@@ -24,7 +24,10 @@ impl HasPosition for Corner {
 ///
 /// Each contour is a list of corner numbers with positions. `None` where corners coincide or sides
 /// cross: then the polygon is not simple.
-pub(super) fn triangulate(contours: &[Vec<(u32, DVec2)>], triangles: &mut Vec<Triangle>) -> Option<()> {
+pub(super) fn triangulate(
+    contours: &[Vec<(u32, DVec2)>],
+    triangles: &mut Vec<Triangle>,
+) -> Option<()> {
     let mut corners = Vec::new();
     let mut sides: Vec<[usize; 2]> = Vec::new();
     for contour in contours {
@@ -39,9 +42,11 @@ pub(super) fn triangulate(contours: &[Vec<(u32, DVec2)>], triangles: &mut Vec<Tr
     }
     let mut n_conflicts = 0;
     let mesh =
-        ConstrainedDelaunayTriangulation::<Corner>::try_bulk_load_cdt(corners, sides, |_| n_conflicts += 1)
-            .ok()
-            .filter(|mesh| mesh.num_vertices() == n_corners)?;
+        ConstrainedDelaunayTriangulation::<Corner>::try_bulk_load_cdt(corners, sides, |_| {
+            n_conflicts += 1
+        })
+        .ok()
+        .filter(|mesh| mesh.num_vertices() == n_corners)?;
     if n_conflicts > 0 {
         return None;
     }

@@ -92,8 +92,10 @@ fn bridge(polygon: &[Corner], holes: &[Vec<Corner>], tolerance: f64) -> Option<(
     let edges = |ring: &[Corner]| -> Vec<[DVec2; 2]> {
         (0..ring.len()).map(|at| [ring[at].1, ring[(at + 1) % ring.len()].1]).collect()
     };
-    let walls: Vec<[DVec2; 2]> =
-        std::iter::once(polygon).chain(holes.iter().map(|hole| &hole[..])).flat_map(edges).collect();
+    let walls: Vec<[DVec2; 2]> = std::iter::once(polygon)
+        .chain(holes.iter().map(|hole| &hole[..]))
+        .flat_map(edges)
+        .collect();
     let sees = |from: usize, at: usize| {
         let (p, q) = (hole[from].1, polygon[at].1);
         is_into(hole, from, q, tolerance)

@@ -29,10 +29,12 @@ pub fn is_convex(corners: &[DVec3]) -> bool {
     let normal = newell_normal(corners.iter().copied());
     let least = STRAIGHT * normal.length();
     let n = corners.len();
-    let is_left =
-        |into: DVec3, out: DVec3| into.cross(out).dot(normal) > least * into.length() * out.length();
+    let is_left = |into: DVec3, out: DVec3| {
+        into.cross(out).dot(normal) > least * into.length() * out.length()
+    };
     let turns_left = |idx: usize| {
-        let (back, here, ahead) = (corners[(idx + n - 1) % n], corners[idx], corners[(idx + 1) % n]);
+        let (back, here, ahead) =
+            (corners[(idx + n - 1) % n], corners[idx], corners[(idx + 1) % n]);
         is_left(here - back, ahead - here)
     };
     // A star turns left at every corner, too, but runs around more than once. Four corners cannot.
@@ -87,7 +89,11 @@ pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
 
 /// The triangles of a face, as numbers of its corners through all contours; see [`triangulate`].
 /// A corner that is repeated at once counts once. `rest`: the rest position of a vertex.
-pub fn face_triangles(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3) -> Option<Vec<Triangle>> {
+pub fn face_triangles(
+    scene: &Scene,
+    face: &Face,
+    rest: impl Fn(VertexId) -> DVec3,
+) -> Option<Vec<Triangle>> {
     // The usual faces, without copies of their corners.
     if face.contours.len() == 1 {
         match scene.contours.get(face.contours.start) {
@@ -136,8 +142,10 @@ impl Flat {
         let across = normal.cross(along);
         let [cosine, sine] = AXES;
         let (x, y) = (cosine * along + sine * across, cosine * across - sine * along);
-        let flat = |corner: &DVec3| DVec2::new((*corner - origin).dot(x), (*corner - origin).dot(y));
-        let rings: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(flat).collect()).collect();
+        let flat =
+            |corner: &DVec3| DVec2::new((*corner - origin).dot(x), (*corner - origin).dot(y));
+        let rings: Vec<Vec<DVec2>> =
+            rings.iter().map(|ring| ring.iter().map(flat).collect()).collect();
         let first = rings
             .iter()
             .scan(0, |next, ring| {
@@ -161,7 +169,9 @@ impl Flat {
         }
         for hole in (0..self.rings.len()).filter(|&ring| !is_outline(ring)) {
             let n_around = around[hole].len();
-            for &outline in around[hole].iter().filter(|&&outline| around[outline].len() + 1 == n_around) {
+            for &outline in
+                around[hole].iter().filter(|&&outline| around[outline].len() + 1 == n_around)
+            {
                 groups[group_of[outline]].push(hole);
             }
         }
@@ -273,7 +283,9 @@ fn is_complete(triangles: &[Triangle], sides: &[u32]) -> bool {
     let is_side = |&(u, w): &(u32, u32)| sides[u as usize] == w;
     let n_sides = edges.keys().filter(|edge| is_side(edge)).count();
     n_sides == sides.len()
-        && edges.iter().all(|(edge, &n)| n == 1 && (is_side(edge) || edges.contains_key(&(edge.1, edge.0))))
+        && edges
+            .iter()
+            .all(|(edge, &n)| n == 1 && (is_side(edge) || edges.contains_key(&(edge.1, edge.0))))
 }
 
 fn edges_of([a, b, c]: Triangle) -> [(u32, u32); 3] {

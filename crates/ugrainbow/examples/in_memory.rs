@@ -7,11 +7,13 @@ use std::io::{self, Read, Write};
 
 /// The PNG file of the scene of a text.
 pub fn png(text: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
-    let scene = ugparse::read(&ugparse::Source::new("scene", text), &Default::default(), None)?.scene;
+    let scene =
+        ugparse::read(&ugparse::Source::new("scene", text), &Default::default(), None)?.scene;
     let velocity = Some(glam::DVec3::new(0.3, -0.2, 0.0));
     let motion = uglorentz::Config { velocity, in_place: true, ..Default::default() };
     let (seen, _) = uglorentz::apply(scene, &motion)?;
-    let (colored, _) = ugdoppler::apply(seen, &ugdoppler::Config { iris: true, ..Default::default() })?;
+    let (colored, _) =
+        ugdoppler::apply(seen, &ugdoppler::Config { iris: true, ..Default::default() })?;
     let mut config = ugrainbow::Config::default();
     config.picture.size = [160, 120];
     Ok(ugrainbow::render(&colored, &config)?.into_file())

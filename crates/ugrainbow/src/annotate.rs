@@ -24,7 +24,8 @@ pub fn find_items(
     let setup = Setup::new(scene, &config)?;
     let layers = RenderLayers::new(&setup, &config);
     let surface = |center: &Center<'_>| center.opaque.map(of_surface);
-    let seen = with_rasterizer!(layers, |rasterizer| rasterizer.paint_centers(surface, &layers.progress()));
+    let seen = with_rasterizer!(layers, |rasterizer| rasterizer
+        .paint_centers(surface, &layers.progress()));
     let emissions = Emissions::new(setup.scene(), &setup.view, setup.appearance.surface.frames());
     found(&|idx| emissions.at_pixel([setup.grid.width, 1], &seen, idx));
     Ok(())

@@ -9,8 +9,8 @@ use uglight::Interpolation;
 use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_shift, kinds, picture_format, pixel,
-    refuse_terminal, with_format, write_explanation, write_picture,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_shift, kinds, picture_format,
+    pixel, refuse_terminal, with_format, write_explanation, write_picture,
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
@@ -255,9 +255,9 @@ impl Args {
         let given = self.lc.as_deref().map(|words| color("lines -lc", words)).transpose()?;
         if !(self.wf || self.ed || self.sil || self.crease.is_some() || self.hl.is_some()) {
             return match given {
-                Some(_) => {
-                    Err(Failure::Usage("-lc is the colour of edges: add -wf or -ed, or leave it out".into()))
-                }
+                Some(_) => Err(Failure::Usage(
+                    "-lc is the colour of edges: add -wf or -ed, or leave it out".into(),
+                )),
                 None => Ok(None),
             };
         }
@@ -268,7 +268,12 @@ impl Args {
             None if self.sil => EdgeKind::Silhouette,
             None => EdgeKind::All,
         };
-        Ok(Some(Wireframe { has_faces: self.ed, color, edges, hidden: self.hl.unwrap_or_default() }))
+        Ok(Some(Wireframe {
+            has_faces: self.ed,
+            color,
+            edges,
+            hidden: self.hl.unwrap_or_default(),
+        }))
     }
 
     fn depth_cue(&self) -> Result<Option<DepthCue>, Failure> {
@@ -279,7 +284,8 @@ impl Args {
             [near, far, least] => (Some([near, far]), least),
             _ => {
                 return Err(Failure::Usage(
-                    "depth cueing -dc is followed by nothing, by NEAR FAR, or by NEAR FAR LEAST".into(),
+                    "depth cueing -dc is followed by nothing, by NEAR FAR, or by NEAR FAR LEAST"
+                        .into(),
                 ));
             }
         };

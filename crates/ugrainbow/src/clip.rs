@@ -18,7 +18,10 @@ pub struct ClipCounts {
 impl ClipCounts {
     /// The counts of two parts of a scene together.
     pub fn merge(self, other: Self) -> Self {
-        Self { in_front: self.in_front + other.in_front, in_picture: self.in_picture + other.in_picture }
+        Self {
+            in_front: self.in_front + other.in_front,
+            in_picture: self.in_picture + other.in_picture,
+        }
     }
 }
 
@@ -59,7 +62,11 @@ impl<const N: usize> Vertex<N> {
 ///
 /// Where a concave polygon falls apart, the parts stay joined along the plane, forth and back, and
 /// the even-odd rule draws nothing there.
-pub fn clip_polygon<const N: usize>(slab: Slab, polygon: &mut Vec<Vertex<N>>, scratch: &mut Vec<Vertex<N>>) {
+pub fn clip_polygon<const N: usize>(
+    slab: Slab,
+    polygon: &mut Vec<Vertex<N>>,
+    scratch: &mut Vec<Vertex<N>>,
+) {
     if polygon.iter().all(|vertex| slab.near <= vertex.place.z && vertex.place.z <= slab.far) {
         return;
     }
@@ -68,7 +75,10 @@ pub fn clip_polygon<const N: usize>(slab: Slab, polygon: &mut Vec<Vertex<N>>, sc
 }
 
 /// The part of a line segment inside the slab.
-pub fn clip_segment<const N: usize>(slab: Slab, mut ends: [Vertex<N>; 2]) -> Option<[Vertex<N>; 2]> {
+pub fn clip_segment<const N: usize>(
+    slab: Slab,
+    mut ends: [Vertex<N>; 2],
+) -> Option<[Vertex<N>; 2]> {
     let planes: [(f64, &dyn Fn(f64) -> bool); 2] =
         [(slab.near, &|z| z >= slab.near), (slab.far, &|z| z <= slab.far)];
     for (z, is_inside) in planes {
@@ -121,7 +131,10 @@ mod tests {
         check(&[(0.0, 0.0), (1.0, -3.0), (0.0, 0.5)], &[]);
         check(&[(0.0, 6.0), (1.0, 7.0), (0.0, 8.0)], &[]);
         // From 0 to 2 deep the plane is met half way.
-        check(&[(0.0, 0.0), (4.0, 2.0), (4.0, 4.0)], &[(1.0, 1.0), (2.0, 1.0), (4.0, 2.0), (4.0, 4.0)]);
+        check(
+            &[(0.0, 0.0), (4.0, 2.0), (4.0, 4.0)],
+            &[(1.0, 1.0), (2.0, 1.0), (4.0, 2.0), (4.0, 4.0)],
+        );
         check(&[], &[]);
     }
 

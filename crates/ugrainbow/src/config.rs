@@ -70,7 +70,8 @@ impl Config {
     /// with the shift of colours that `ugdoppler` left to them.
     pub(crate) fn with_textures(&self, scene: &Scene) -> Self {
         let camera = scene.camera().and_then(|camera| camera.projection);
-        let is_orthographic = self.picture.camera.is_orthographic || camera == Some(Projection::Orthographic);
+        let is_orthographic =
+            self.picture.camera.is_orthographic || camera == Some(Projection::Orthographic);
         let may_be_exact = self.has_faces()
             && !(self.cull || is_orthographic)
             && matches!(self.picture.output, Output::Color(_))
@@ -78,7 +79,8 @@ impl Config {
             && ShownEffects::of(scene) == ShownEffects::default()
             && ugscene::require_seen_geometry(scene).is_ok();
         let shift = scene.stage.deferred_colors().map_or(ColorShift::NONE, ColorShift::of_stage);
-        let exact = self.exact.or((may_be_exact && scene.drawn_texture_name().is_some()).then_some(shift));
+        let exact =
+            self.exact.or((may_be_exact && scene.drawn_texture_name().is_some()).then_some(shift));
         Self { exact, ..self.clone() }
     }
 

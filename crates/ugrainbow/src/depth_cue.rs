@@ -29,9 +29,12 @@ fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
     let ends = |center: &Center<'_>| {
         let opaque = center.opaque.iter().map(|hit| hit.key);
         let keys = opaque.chain(center.fragments.iter().map(|fragment| fragment.key));
-        keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])
+        keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| {
+            [low.min(key), high.max(key)]
+        })
     };
-    let keys = with_rasterizer!(layers, |rasterizer| rasterizer.paint_centers(ends, &layers.progress()));
+    let keys =
+        with_rasterizer!(layers, |rasterizer| rasterizer.paint_centers(ends, &layers.progress()));
     let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];
     let [farthest, nearest] = keys.into_iter().reduce(join)?;
     let depth = |key: f32| {

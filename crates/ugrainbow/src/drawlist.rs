@@ -5,7 +5,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{FaceColors, Mixing, Swatch};
 use ugraster::{
-    BLOCK, Bounds, Corner, CornerTable, PolygonLayer, PolygonList, ScreenPoint, ShapeRef, TriangleBlock,
+    BLOCK, Bounds, Corner, CornerTable, PolygonLayer, PolygonList, ScreenPoint, ShapeRef,
+    TriangleBlock,
 };
 use ugscene::{Face, VertexId};
 
@@ -50,7 +51,8 @@ impl<const N: usize> CornerTable<N> for Corners<'_, N> {
     fn values(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
         let face = &self.painter.scene.faces[item as usize];
         if let (Some(level), None) = (self.even_level, face.shading) {
-            let [a, b, c] = corners.map(|corner| self.painter.appearance.surface.swatch(VertexId(corner)));
+            let [a, b, c] =
+                corners.map(|corner| self.painter.appearance.surface.swatch(VertexId(corner)));
             if !(a.is_grey() | b.is_grey() | c.is_grey()) {
                 return [(self.pack)(a, level), (self.pack)(b, level), (self.pack)(c, level)];
             }
@@ -104,7 +106,11 @@ impl<'a> FaceLook<'a> {
 impl<'a, const N: usize> DrawList<'a, N> {
     /// The faces for which `is_drawn` holds, in the order of the scene; their items are their rows.
     /// `pack` makes the values to interpolate from a colour and a light level.
-    pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
+    pub fn new(
+        painter: Painter<'a>,
+        is_drawn: impl Fn(&Face) -> bool + Sync,
+        pack: Pack<N>,
+    ) -> Self {
         let scene = painter.scene;
         let even_level = painter.even_level();
         let corners = Corners { painter, pack, points: points(&painter), even_level };
@@ -113,7 +119,8 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let level = Level::new();
         let mut parts: Vec<_> = scene.faces.chunks(chunk).map(|faces| (faces, None)).collect();
         parts.par_iter_mut().with_max_len(1).enumerate().for_each(|(idx, (faces, part))| {
-            *part = Some(Chunk::new(&corners, faces.len(), level).all(idx * chunk, faces, &is_drawn));
+            *part =
+                Some(Chunk::new(&corners, faces.len(), level).all(idx * chunk, faces, &is_drawn));
         });
         let parts = parts.into_iter().filter_map(|(_, part)| part);
         let (lists, counts): (Vec<PolygonList<N>>, Vec<_>) = parts.unzip();
@@ -149,12 +156,15 @@ impl<'a, const N: usize> DrawList<'a, N> {
     pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<N>>>)) {
         for (item, shape) in self.lists.iter().flat_map(|list| list.shapes()) {
             match shape {
-                ShapeRef::Polygon(contours) => take(item, contours.map(<[Corner<N>]>::to_vec).collect()),
+                ShapeRef::Polygon(contours) => {
+                    take(item, contours.map(<[Corner<N>]>::to_vec).collect())
+                }
                 ShapeRef::Triangle(corners) => {
                     let numbers = self.corners.values(item, corners);
                     let corner = |i: usize| {
                         let ScreenPoint { x, y, key } = self.corners.point(corners[i]);
-                        let scale = if self.corners.painter.view.is_perspective { key } else { 1.0 };
+                        let scale =
+                            if self.corners.painter.view.is_perspective { key } else { 1.0 };
                         Corner { x, y, key, values: numbers[i].map(|number| number * scale) }
                     };
                     take(item, vec![[0, 1, 2].map(corner).to_vec()]);
@@ -245,7 +255,8 @@ impl<'a, const N: usize> Chunk<'a, N> {
             self.add_triangle(item, [a, b, c]);
             return;
         }
-        let triangles = if self.painter.is_even(face, corners) { None } else { self.painter.triangles(face) };
+        let triangles =
+            if self.painter.is_even(face, corners) { None } else { self.painter.triangles(face) };
         let Some(triangles) = triangles else {
             self.parts.items[self.parts.n] = item;
             self.count_part();
@@ -280,7 +291,8 @@ impl<'a, const N: usize> Chunk<'a, N> {
     fn push_parts(&mut self) {
         let Parts { n, triangles, blocks, .. } = &self.parts;
         let (n, triangles) = (*n, *triangles);
-        let others = !triangles & u64::MAX.checked_shr((u64::BITS as usize - n) as u32).unwrap_or(0);
+        let others =
+            !triangles & u64::MAX.checked_shr((u64::BITS as usize - n) as u32).unwrap_or(0);
         let (mut regular, mut in_picture, mut drawn) = (0, 0, 0);
         let mut classes = [const { None }; TOGETHER / BLOCK];
         for (idx, (block, classes)) in blocks.iter().zip(&mut classes).enumerate() {
@@ -349,7 +361,11 @@ impl<'a, const N: usize> Chunk<'a, N> {
     }
 
     /// Clips and projects the contours. Returns false if nothing is left.
-    fn clip_contours<'c>(&mut self, face: &Face, contours: impl Iterator<Item = &'c [VertexId]>) -> bool {
+    fn clip_contours<'c>(
+        &mut self,
+        face: &Face,
+        contours: impl Iterator<Item = &'c [VertexId]>,
+    ) -> bool {
         let look = FaceLook::new(self.painter, face);
         let mut is_in_front = false;
         for corners in contours {
@@ -378,6 +394,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
 
     fn end_polygon(&mut self) {
         self.clip_counts.in_front += 1;
-        self.clip_counts.in_picture += usize::from(self.list.end_polygon(self.painter.grid, self.item));
+        self.clip_counts.in_picture +=
+            usize::from(self.list.end_polygon(self.painter.grid, self.item));
     }
 }

@@ -30,7 +30,9 @@ pub enum Error {
     #[error("exact pictures shift colours themselves, and those of this scene are as seen already")]
     ExactSeenColors,
     /// An exact picture of positions without contraction or without time of flight.
-    #[error("rays follow contraction and time of flight, and one of them is left out of this scene")]
+    #[error(
+        "rays follow contraction and time of flight, and one of them is left out of this scene"
+    )]
     ExactPartialGeometry,
     /// An exact picture in orthographic projection.
     #[error("rays go to the eye, and in orthographic projection they do not meet there")]
@@ -42,7 +44,9 @@ pub enum Error {
     #[error("vector graphics with translucent faces need a background")]
     FigureBackground,
     /// A vector figure of too many faces.
-    #[error("faces, and the parts into which they cut each other, are too many for vector graphics")]
+    #[error(
+        "faces, and the parts into which they cut each other, are too many for vector graphics"
+    )]
     FigureFaces,
     /// A vector figure with too many translucent faces one behind another.
     #[error("too many translucent faces overlap for vector graphics")]

@@ -74,8 +74,10 @@ fn why_nothing_is_seen(
 
 /// True if there are only lines, and they are black.
 fn has_black_lines(config: &Config) -> bool {
-    let color =
-        config.wireframe.filter(|wireframe| !wireframe.has_faces).and_then(|wireframe| wireframe.color);
+    let color = config
+        .wireframe
+        .filter(|wireframe| !wireframe.has_faces)
+        .and_then(|wireframe| wireframe.color);
     color.is_some_and(|color| color.value == 0.0)
 }
 

@@ -42,7 +42,8 @@ impl Painter<'_> {
     pub fn point(&self, place: CameraPoint) -> ScreenPoint {
         let Slab { near, far } = self.view.slab;
         if near <= place.z && place.z <= far {
-            let Corner { x, y, key, .. } = Vertex { place, values: [] }.project(self.view.is_perspective);
+            let Corner { x, y, key, .. } =
+                Vertex { place, values: [] }.project(self.view.is_perspective);
             ScreenPoint { x, y, key }
         } else {
             ScreenPoint { x: f64::NAN, y: f64::NAN, key: f64::NAN }
@@ -52,8 +53,11 @@ impl Painter<'_> {
     /// True if a face is back-facing: its outline is seen clockwise.
     pub fn is_seen_from_behind(&self, face: &Face) -> bool {
         let Some(outline) = self.scene.face_contours(face).next() else { return false };
-        let seen = outline.iter().map(|vertex| self.scene.vertices[vertex.index()].position - self.view.eye);
-        let forward = if self.view.is_perspective { seen.clone().next() } else { Some(self.view.forward) };
+        let seen = outline
+            .iter()
+            .map(|vertex| self.scene.vertices[vertex.index()].position - self.view.eye);
+        let forward =
+            if self.view.is_perspective { seen.clone().next() } else { Some(self.view.forward) };
         unit_normal(seen).dot(forward.unwrap_or_default()) > 0.0
     }
 
@@ -86,8 +90,10 @@ impl Painter<'_> {
     /// they are not shifted as hues.
     pub fn wire_swatch(&self, wire: &Wire, keeps_light: bool) -> impl Fn(VertexId) -> Swatch {
         let palette = &self.appearance.palette;
-        let own = |color: Option<ColorId>| color.map_or(palette.white(), |color| palette.get(color));
-        let end = move |vertex: VertexId| own(self.scene.vertices[vertex.index()].color.or(wire.color));
+        let own =
+            |color: Option<ColorId>| color.map_or(palette.white(), |color| palette.get(color));
+        let end =
+            move |vertex: VertexId| own(self.scene.vertices[vertex.index()].color.or(wire.color));
         let corners = self.scene.contours.corners(wire.contours.clone());
         let mixing = self.appearance.mixing(corners.iter().map(|&vertex| end(vertex)));
         let mixing = if keeps_light { mixing } else { Mixing::Hue };
@@ -113,16 +119,29 @@ impl Painter<'_> {
         let seen = self.appearance.surface.seen();
         let outline = self.scene.contours.get(face.contours.start);
         if self.view.is_perspective || seen.own_time(outline[0].index()).is_some() {
-            return seen.seen_normal(self.scene, face, (self.view.eye, self.appearance.surface.frames()));
+            return seen.seen_normal(
+                self.scene,
+                face,
+                (self.view.eye, self.appearance.surface.frames()),
+            );
         }
         let rest = outline.iter().map(|&vertex| self.appearance.surface.rest(vertex));
-        ugscene::seen_normal(rest, -self.appearance.surface.rest_direction(self.view.forward, face.body))
+        ugscene::seen_normal(
+            rest,
+            -self.appearance.surface.rest_direction(self.view.forward, face.body),
+        )
     }
 
     /// The light level at a corner, for red, green and blue: linear for a colour given as light,
     /// else for display-encoded values.
     #[inline]
-    pub fn level(&self, face: &Face, vertex: VertexId, seen_normal: DVec3, is_light: bool) -> DVec3 {
+    pub fn level(
+        &self,
+        face: &Face,
+        vertex: VertexId,
+        seen_normal: DVec3,
+        is_light: bool,
+    ) -> DVec3 {
         if let Some(level) = self.scene.light_level(face) {
             return DVec3::splat(level);
         }
@@ -138,7 +157,8 @@ impl Painter<'_> {
     pub fn lit_point(&self, face: &Face, vertex: VertexId, seen_normal: DVec3) -> [DVec3; 3] {
         let normal = self.normal_at(vertex, seen_normal);
         let (surface, rest) = (&self.appearance.surface, self.appearance.surface.rest(vertex));
-        let standing = |own_time| Some(surface.frames().world_line(face.body)?.standing(rest, own_time));
+        let standing =
+            |own_time| Some(surface.frames().world_line(face.body)?.standing(rest, own_time));
         match surface.seen().own_time(vertex.index()).and_then(standing) {
             // It is lit as it stands in the scene if it only turned.
             Some((place, turn)) => [place, turn * normal, DVec3::ZERO],
@@ -150,15 +170,19 @@ impl Painter<'_> {
     #[inline]
     pub fn is_flat(&self, corners: &[VertexId]) -> bool {
         let has_normal = |corner: &VertexId| self.scene.vertices[corner.index()].normal.is_some();
-        let turns = |&corner: &VertexId| self.appearance.surface.seen().own_time(corner.index()).is_some();
-        !self.lighting.needs_places() && !corners.iter().any(|corner| has_normal(corner) || turns(corner))
+        let turns =
+            |&corner: &VertexId| self.appearance.surface.seen().own_time(corner.index()).is_some();
+        !self.lighting.needs_places()
+            && !corners.iter().any(|corner| has_normal(corner) || turns(corner))
     }
 
     /// True if colour and light level are the same at all corners of a face.
     pub fn is_even(&self, face: &Face, corners: &[VertexId]) -> bool {
         let Some((&first, others)) = corners.split_first() else { return true };
         let is_lit_evenly = || {
-            !self.lighting.needs_geometry() || self.scene.light_level(face).is_some() || self.is_flat(corners)
+            !self.lighting.needs_geometry()
+                || self.scene.light_level(face).is_some()
+                || self.is_flat(corners)
         };
         let looks_like_first = |&corner: &VertexId| {
             self.appearance.surface.row(corner) == self.appearance.surface.row(first)
@@ -172,7 +196,8 @@ impl Painter<'_> {
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry() && self.layout == Layout::Hues;
         let is_opaque = !self.appearance.palette.has_translucency;
-        (is_even && is_opaque).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
+        (is_even && is_opaque)
+            .then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 
     /// The normal at a corner of a face, on its visible side.

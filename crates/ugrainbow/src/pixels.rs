@@ -114,9 +114,12 @@ impl ResolveSingle<[u8; 4]> for Display {
 fn write_levels<S: Simd>(simd: S, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
     let [red, green, blue] = levels;
     let all = red.as_chunks().0.iter().zip(green.as_chunks().0).zip(blue.as_chunks().0);
-    for ((keys, pixels), ((red, green), blue)) in keys.chunks(LANES).zip(pixels.chunks_mut(LANES)).zip(all) {
+    for ((keys, pixels), ((red, green), blue)) in
+        keys.chunks(LANES).zip(pixels.chunks_mut(LANES)).zip(all)
+    {
         let (red, green, blue) = (bytes(simd, red), bytes(simd, green), bytes(simd, blue));
-        let shown = red | green << 8 | blue << 16 | i32x16::splat(simd, i32::from_le_bytes([0, 0, 0, 255]));
+        let shown =
+            red | green << 8 | blue << 16 | i32x16::splat(simd, i32::from_le_bytes([0, 0, 0, 255]));
         if let (Some(keys), Some(pixels)) = (keys.first_chunk(), pixels.first_chunk_mut()) {
             show(simd, keys, shown, pixels);
         } else {
@@ -173,7 +176,8 @@ impl ResolveSingle<[f32; 4]> for Light<'_> {
     }
 
     fn pixels(&self, keys: &[f32], light: &[[f32; RUN]; 3], pixels: &mut [[f32; 4]]) {
-        let covered = keys.iter().zip(pixels).enumerate().filter(|(_, (key, _))| **key > f32::NEG_INFINITY);
+        let covered =
+            keys.iter().zip(pixels).enumerate().filter(|(_, (key, _))| **key > f32::NEG_INFINITY);
         for (idx, (_, pixel)) in covered {
             *pixel = self.0.pixel(light.each_ref().map(|channel| channel[idx]), 1.0);
         }
@@ -181,7 +185,11 @@ impl ResolveSingle<[f32; 4]> for Light<'_> {
 }
 
 /// The whole picture of the scene as light, with the requested channels.
-pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
+pub fn light(
+    setup: &Setup<'_>,
+    layers: &RenderLayers<'_>,
+    config: &Config,
+) -> (LinearFrame, SampleStats) {
     let grid = &setup.grid;
     let PictureOptions { filter, channels, .. } = &config.picture;
     let background = drawn_on(&config.sky, config.picture.background);
@@ -198,7 +206,8 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
         }
         return (frame, stats);
     }
-    let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), center_surface(&setup.view, &all.center));
+    let both =
+        |all: &PixelSamples<'_>| (mean(&backdrop, all), center_surface(&setup.view, &all.center));
     let (pixels, stats) = with_rasterizer!(layers, |rasterizer| {
         rasterizer.paint(layers.shader, Keep::Centers, &both, &layers.progress())
     });

@@ -2,7 +2,9 @@
 
 use ugimage::LinearFrame;
 use ugparse::{Diagnostics, Parsed, Source};
-use ugpicture::{Annotated, Canvas, Drawn, FoundItems, Output, PictureFile, Rendering, Subject, metadata};
+use ugpicture::{
+    Annotated, Canvas, Drawn, FoundItems, Output, PictureFile, Rendering, Subject, metadata,
+};
 use ugpipe::Progress;
 use ugscene::{Provenance, Scene};
 
@@ -16,8 +18,11 @@ use crate::render_layers::RenderLayers;
 use crate::{pixels, vector};
 
 /// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+pub const PROVENANCE: Provenance<'static> = Provenance {
+    program: env!("CARGO_PKG_NAME"),
+    version: env!("CARGO_PKG_VERSION"),
+    command: None,
+};
 
 /// Renders a scene: to pixels for a display, light, or a vector figure.
 ///
@@ -31,7 +36,11 @@ pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
 ///
 /// # Errors
 /// See [`Error`].
-pub fn render_with(scene: &Scene, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+pub fn render_with(
+    scene: &Scene,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<Rendering, Error> {
     draw(scene, config, &Canvas::new(&config.picture)?, PROVENANCE, progress)
 }
 

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use ugpicture::{DepthPoint, Filter, visible_parts};
 use ugpipe::Progress;
 use ugraster::{
-    BandProgress, Corner, FragmentTarget, FragmentWriter, Keep, NoTriangles, OpaqueLayer, PolygonLayer,
-    PolygonList, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample, TRANSPARENT_VALUES, Tile,
-    TransparentLayer,
+    BandProgress, Corner, FragmentTarget, FragmentWriter, Keep, NoTriangles, OpaqueLayer,
+    PolygonLayer, PolygonList, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample,
+    TRANSPARENT_VALUES, Tile, TransparentLayer,
 };
 use ugscene::Face;
 
@@ -118,7 +118,13 @@ impl<'a, const N: usize> Layers<'a, N> {
     }
 
     /// What is drawn of pieces of lines.
-    fn shown(&self, painter: &Painter<'_>, all: &[Stroke], hidden: HiddenLines, width: f64) -> Vec<Stroke> {
+    fn shown(
+        &self,
+        painter: &Painter<'_>,
+        all: &[Stroke],
+        hidden: HiddenLines,
+        width: f64,
+    ) -> Vec<Stroke> {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
         // One sample more than half the width.
         let margin = 0.5 * width + 1.0;
@@ -205,7 +211,8 @@ impl<'a> RenderLayers<'a> {
     pub fn new(setup: &'a Setup<'_>, config: &Config) -> Self {
         let painter = setup.painter();
         let surface = &painter.appearance.surface;
-        let planes = ugscene::shared_planes(painter.scene, surface.all_rest(), surface.frames()).into();
+        let planes =
+            ugscene::shared_planes(painter.scene, surface.all_rest(), surface.frames()).into();
         let few = |pack| Solid::Few(Layers::new(painter, &planes, config, false, pack));
         let many = |pack| Solid::Many(Layers::new(painter, &planes, config, false, pack));
         let solid = match setup.layout {
@@ -216,7 +223,8 @@ impl<'a> RenderLayers<'a> {
         };
         let has_translucency =
             painter.appearance.palette.has_translucency || painter.textures.has_translucency();
-        let faces = has_translucency.then(|| Layers::new(painter, &planes, config, true, pack_transparent));
+        let faces =
+            has_translucency.then(|| Layers::new(painter, &planes, config, true, pack_transparent));
         let is_exact = config.exact.is_some();
         let lines = lines(&painter, config.wireframe, is_exact);
         let (pieces, mut clip_counts) = pieces(&painter, &lines, is_exact);
@@ -224,12 +232,14 @@ impl<'a> RenderLayers<'a> {
         let strokes = if pieces.is_empty() {
             Vec::new()
         } else {
-            let hidden = config.wireframe.map_or(HiddenLines::Omitted, |wireframe| wireframe.hidden);
+            let hidden =
+                config.wireframe.map_or(HiddenLines::Omitted, |wireframe| wireframe.hidden);
             with_layers!(&solid, |layers| layers.shown(&painter, &pieces, hidden, width))
         };
         if config.has_faces() {
             clip_counts = clip_counts.merge(with_layers!(&solid, |layers| layers.clip_counts()));
-            clip_counts = faces.iter().fold(clip_counts, |all, faces| all.merge(faces.clip_counts()));
+            clip_counts =
+                faces.iter().fold(clip_counts, |all, faces| all.merge(faces.clip_counts()));
         }
         let lines = [strips(&painter, &strokes, width)];
         let (grid, shader) = (&setup.grid, &setup.shader);
@@ -282,12 +292,16 @@ impl<'a> RenderLayers<'a> {
 impl RenderLayers<'_> {
     /// True if a face in the picture is translucent.
     pub fn has_transparent_faces(&self) -> bool {
-        self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.clip_counts().in_picture > 0)
+        self.has_faces
+            && self.clear.faces.as_ref().is_some_and(|faces| faces.clip_counts().in_picture > 0)
     }
 
     /// Passes every polygon to `take`: its item, whether it is translucent, and its contours.
     /// Opaque ones come first; their values are padded with zeros.
-    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<TRANSPARENT_VALUES>>>)) {
+    pub fn for_each_polygon(
+        &self,
+        mut take: impl FnMut(u32, bool, Vec<Vec<Corner<TRANSPARENT_VALUES>>>),
+    ) {
         fn all<const N: usize>(
             layers: &Layers<'_, N>,
             mut take: impl FnMut(u32, Vec<Vec<Corner<TRANSPARENT_VALUES>>>),
@@ -302,12 +316,17 @@ impl RenderLayers<'_> {
             list.for_each_polygon(|item, contours| {
                 take(
                     item,
-                    contours.into_iter().map(|contour| contour.iter().map(padded).collect()).collect(),
+                    contours
+                        .into_iter()
+                        .map(|contour| contour.iter().map(padded).collect())
+                        .collect(),
                 );
             });
         }
         if self.has_faces {
-            with_layers!(&self.solid, |layers| all(layers, |item, contours| take(item, false, contours)));
+            with_layers!(&self.solid, |layers| all(layers, |item, contours| take(
+                item, false, contours
+            )));
             if let Some(clear) = &self.clear.faces {
                 all(clear, |item, contours| take(item, true, contours));
             }

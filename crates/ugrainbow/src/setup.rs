@@ -76,7 +76,8 @@ impl<'a> Setup<'a> {
         let appearance = Appearance::new(&scene, view.eye, interpolation, shift, 1.0);
         let law = config.law(&scene);
         let lighting = Lighting::new(&scene, view.eye, view.forward, law, shift.is_spectral());
-        let appearance = appearance.with_tables(lighting.colored_lamps().map_or(0, |lamps| lamps.len()));
+        let appearance =
+            appearance.with_tables(lighting.colored_lamps().map_or(0, |lamps| lamps.len()));
         let palette = &appearance.palette;
         let keeps_highlights = palette.has_light || config.picture.keeps_light();
         if let Some(shift) = config.exact {
@@ -90,17 +91,23 @@ impl<'a> Setup<'a> {
         }
         let light = |color| uglight::RestColor::new(&scene, Some(color)).linear();
         let textures = match config.exact {
-            Some(_) => Textures::new(&scene, light).map_err(|error| Error::Picture(error.into()))?,
+            Some(_) => {
+                Textures::new(&scene, light).map_err(|error| Error::Picture(error.into()))?
+            }
             None => Textures::default(),
         };
         let layout = match Layout::new(&scene, &appearance, &lighting) {
             // Texels are hues or light, and emitted light is added to light.
-            Layout::Hues if !textures.is_empty() || config.exact.is_some() && !scene.emissions.is_empty() => {
+            Layout::Hues
+                if !textures.is_empty()
+                    || config.exact.is_some() && !scene.emissions.is_empty() =>
+            {
                 Layout::Mixed { has_levels: false }
             }
             layout => layout,
         };
-        let shader = Shader::new(palette.interpolation, !keeps_highlights, law.acts_on_light(), layout);
+        let shader =
+            Shader::new(palette.interpolation, !keeps_highlights, law.acts_on_light(), layout);
         let is_culled = config.cull;
         Ok(Self {
             scene,
@@ -139,7 +146,8 @@ impl<'a> Setup<'a> {
 /// Refuses orthographic projection and scenes whose colours would be shifted twice.
 fn check_exact(scene: &Scene, view: &View, shift: ColorShift) -> Result<(), Error> {
     let deferred = scene.stage.deferred_colors().map(ColorShift::of_stage);
-    let are_seen = scene.stage.seen_colors().is_some() || deferred.is_some_and(|deferred| deferred != shift);
+    let are_seen =
+        scene.stage.seen_colors().is_some() || deferred.is_some_and(|deferred| deferred != shift);
     refuse([
         (are_seen, Error::ExactSeenColors),
         (ShownEffects::of(scene) != ShownEffects::default(), Error::ExactPartialGeometry),
@@ -168,7 +176,9 @@ fn drawable(scene: &Scene) -> Cow<'_, Scene> {
     if is_drawn_at_rest {
         let at_rest = scene.bodies.unstated();
         let faces = scene.faces.iter_mut().map(|face| &mut face.body);
-        faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.body)).for_each(|body| *body = at_rest);
+        faces
+            .chain(scene.wires.iter_mut().map(|wire| &mut wire.body))
+            .for_each(|body| *body = at_rest);
     }
     ugscene::separate_bodies(&mut scene);
     Cow::Owned(scene)

@@ -111,7 +111,8 @@ impl TriangleBlock {
         // Positive if the corners run counterclockwise on the screen, where rows go downwards.
         let twice_area = (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y);
         let extent = greater(right - left, bottom - top);
-        let is_near = lesser(left, top).simd_ge(number(-FAR)) & greater(right, bottom).simd_le(number(FAR));
+        let is_near =
+            lesser(left, top).simd_ge(number(-FAR)) & greater(right, bottom).simd_le(number(FAR));
         // NaN fails every comparison. A NaN coordinate makes the area NaN, and a NaN key this sum.
         let has_keys = (a.key + b.key + c.key).abs().simd_lt(number(f64::INFINITY));
         let is_wide = twice_area.abs().simd_gt(extent * extent * SLIVER);
@@ -130,8 +131,10 @@ impl TriangleBlock {
         let end_row = first_centers(bottom, number(0.0), number(rows));
         let first_column = first_centers(left - ROUNDING, number(0.0), number(columns));
         let end_column = first_centers(right + ROUNDING, number(0.0), number(columns));
-        let mut is_drawn =
-            is_regular & is_in_picture & first_row.simd_lt(end_row) & first_column.simd_lt(end_column);
+        let mut is_drawn = is_regular
+            & is_in_picture
+            & first_row.simd_lt(end_row)
+            & first_column.simd_lt(end_column);
         if is_culled {
             is_drawn &= twice_area.simd_gt(number(0.0));
         }

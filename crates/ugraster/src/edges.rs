@@ -95,7 +95,8 @@ impl<const N: usize> Scanner<N> {
                 span(row, left, right);
             } else {
                 for pair in self.columns.chunks_exact(2) {
-                    let [left, right] = [pair[0].1, pair[1].1].map(|idx| &self.crossings[idx as usize]);
+                    let [left, right] =
+                        [pair[0].1, pair[1].1].map(|idx| &self.crossings[idx as usize]);
                     span(row, left, right);
                 }
             }
@@ -125,10 +126,12 @@ impl<const N: usize> Scanner<N> {
 
     fn find_crossings(&mut self, row: u32) {
         self.crossings.clear();
-        self.crossings.extend(self.active.iter().map(|&edge| self.edges[edge as usize].at_row(row)));
+        self.crossings
+            .extend(self.active.iter().map(|&edge| self.edges[edge as usize].at_row(row)));
         if self.crossings.len() != 2 {
             self.columns.clear();
-            self.columns.extend((0..).zip(&self.crossings).map(|(idx, crossing)| (crossing.x, idx)));
+            self.columns
+                .extend((0..).zip(&self.crossings).map(|(idx, crossing)| (crossing.x, idx)));
             sort_columns(&mut self.columns);
         }
     }

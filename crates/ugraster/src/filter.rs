@@ -105,8 +105,15 @@ impl RowSums {
     }
 
     /// The weighted sum of the columns from `first` on. `weight`: the sum of weights down a column.
-    fn pixel(&self, first: usize, weights: &[f32], weight: f32, n_samples: f32) -> PixelSamples<'static> {
-        let [red, green, blue, coverage] = self.0.each_ref().map(|sums| &sums[first..first + weights.len()]);
+    fn pixel(
+        &self,
+        first: usize,
+        weights: &[f32],
+        weight: f32,
+        n_samples: f32,
+    ) -> PixelSamples<'static> {
+        let [red, green, blue, coverage] =
+            self.0.each_ref().map(|sums| &sums[first..first + weights.len()]);
         let (mut sum, mut covered, mut all) = ([0.0; 3], 0.0, 0.0);
         for ((((part, red), green), blue), coverage) in
             weights.iter().zip(red).zip(green).zip(blue).zip(coverage)
@@ -164,8 +171,11 @@ impl<const N: usize> Strip<'_, N> {
             }
             row = end;
             let is_last = row == tall[1];
-            let done =
-                if is_last { rows[1] } else { row.saturating_sub(self.margin).clamp(pending, rows[1]) };
+            let done = if is_last {
+                rows[1]
+            } else {
+                row.saturating_sub(self.margin).clamp(pending, rows[1])
+            };
             for finished in pending..done {
                 self.finish(finished, columns, wide[0], &mut take);
             }

@@ -45,7 +45,9 @@ pub struct StoredGradients {
 impl StoredGradients {
     /// Stores gradients.
     #[inline(always)]
-    pub fn new<S: Simd>(Gradients { sides: [[a, b], [c, d]], per_area }: &Gradients<f64x8<S>>) -> Self {
+    pub fn new<S: Simd>(
+        Gradients { sides: [[a, b], [c, d]], per_area }: &Gradients<f64x8<S>>,
+    ) -> Self {
         let sides = [[(*a).into(), (*b).into()], [(*c).into(), (*d).into()]];
         Self { sides, per_area: (*per_area).into() }
     }

@@ -86,7 +86,8 @@ impl<const N: usize, C: CornerTable<N> + ?Sized> PolygonLayer<'_, N, C> {
             match shape {
                 ShapeRef::Triangle(corners) => {
                     let [a, b, c] = corners;
-                    let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
+                    let points =
+                        [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
                     if queue.push(item, corners, points) {
                         flush(&mut queue, target);
                     }
@@ -165,7 +166,8 @@ pub trait ShapeTarget<const N: usize> {
         }
         let per_column = 1.0 / (right.x - left.x);
         let key_slope = (right.key - left.key) * per_column;
-        let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
+        let slopes: [f64; N] =
+            std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
         self.draw_each(row, columns, item, |column, occluder_key| {
             // From the left end and never from the sample before: the result must not depend on
             // where a tile starts.

@@ -117,7 +117,9 @@ pub use depth_fade::DepthFade;
 pub use edges::Scanner;
 pub use grid::{Bands, SampleGrid, TileShape};
 pub use layer::{CornerTable, NoTriangles, OpaqueLayer, PolygonLayer, ShapeTarget};
-pub use polygons::{Bounds, Corner, PolygonList, ScreenPoint, ShapeRef, TilePlace, greater, lesser};
+pub use polygons::{
+    Bounds, Corner, PolygonList, ScreenPoint, ShapeRef, TilePlace, greater, lesser,
+};
 pub use probe::{ProbedSample, ProbedSurface};
 pub use progress::BandProgress;
 pub use rasterizer::Rasterizer;

@@ -66,11 +66,13 @@ impl<S: Simd> Outlines<S> {
     #[inline(always)]
     pub fn spans(&self, simd: S, centers: f64x8<S>, [start, end]: [u32; 2]) -> (RowSpans, u64) {
         // Without `map`: closures passed to it would not be compiled for the instruction set.
-        let (a, upper, lower) = (self.long.at(centers), self.upper.at(centers), self.lower.at(centers));
+        let (a, upper, lower) =
+            (self.long.at(centers), self.upper.at(centers), self.lower.at(centers));
         let is_upper = centers.simd_lt(self.knee);
         let b = is_upper.select(upper, lower);
         let is_first = a.simd_gt(b);
-        let (start, end) = (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
+        let (start, end) =
+            (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
         let first = first_centers(is_first.select(b, a), start, end);
         let end = first_centers(is_first.select(a, b), start, end);
         let has_samples = first.simd_lt(end) & centers.simd_lt(self.end);
@@ -105,7 +107,11 @@ impl StoredOutlines {
     #[inline(always)]
     pub fn splat<S: Simd>(&self, simd: S, triangle: usize) -> Outlines<S> {
         let splat = |all: &PerTriangle| f64x8::splat(simd, all[triangle]);
-        let side = |[x, y, slope]: &[PerTriangle; 3]| Sides { x: splat(x), y: splat(y), slope: splat(slope) };
+        let side = |[x, y, slope]: &[PerTriangle; 3]| Sides {
+            x: splat(x),
+            y: splat(y),
+            slope: splat(slope),
+        };
         let [long, upper, lower] = &self.sides;
         Outlines {
             long: side(long),

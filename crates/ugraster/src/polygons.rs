@@ -89,7 +89,11 @@ pub enum ShapeRef<C> {
 impl<const N: usize> PolygonList<N> {
     /// An empty list with room for this many shapes.
     pub fn with_capacity(shapes: usize) -> Self {
-        Self { shapes: Vec::with_capacity(shapes), bands: Vec::with_capacity(shapes), ..Self::default() }
+        Self {
+            shapes: Vec::with_capacity(shapes),
+            bands: Vec::with_capacity(shapes),
+            ..Self::default()
+        }
     }
 
     /// Adds a corner to the contour being built.
@@ -113,7 +117,8 @@ impl<const N: usize> PolygonList<N> {
         if let Some(rows) = rows.clone().filter(|rows| !rows.is_empty()) {
             let contours = self.n_contours..index(self.contour_ends.len());
             self.n_contours = contours.end;
-            let place = TilePlace { bands: grid.bands().of(&rows), columns: bounds.tile_columns(grid) };
+            let place =
+                TilePlace { bands: grid.bands().of(&rows), columns: bounds.tile_columns(grid) };
             self.push(item, Outline::Contours(contours), place);
         } else {
             self.drop_contours();
@@ -164,15 +169,21 @@ impl<const N: usize> PolygonList<N> {
     }
 
     /// All shapes in drawing order, each with its item.
-    pub fn shapes(&self) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
+    pub fn shapes(
+        &self,
+    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
         self.shapes.iter().map(|shape| self.shape(shape))
     }
 
-    fn shape(&self, shape: &Shape) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
+    fn shape(
+        &self,
+        shape: &Shape,
+    ) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
         let outline = match &shape.outline {
             Outline::Triangle(corners) => ShapeRef::Triangle(*corners),
             Outline::Contours(contours) => ShapeRef::Polygon(contours.clone().map(|contour| {
-                &self.corners[self.contour_start(contour)..self.contour_ends[contour as usize] as usize]
+                &self.corners
+                    [self.contour_start(contour)..self.contour_ends[contour as usize] as usize]
             })),
         };
         (shape.item, outline)

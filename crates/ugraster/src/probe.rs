@@ -66,7 +66,11 @@ impl<const N: usize> Rasterizer<'_, N> {
                 });
                 let fragments = transparency.fragments(sample_row, sample_column).to_vec();
                 if opaque.is_some() || !fragments.is_empty() {
-                    samples.push(ProbedSample { place: [sample_column, sample_row], opaque, fragments });
+                    samples.push(ProbedSample {
+                        place: [sample_column, sample_row],
+                        opaque,
+                        fragments,
+                    });
                 }
             }
         }

@@ -55,16 +55,23 @@ impl<const N: usize> Rasterizer<'_, N> {
     ) -> Vec<P> {
         let grid = self.grid;
         let empty = pixel(&Center::default());
-        let (pixels, _) = paint_parts(grid, grid.band_rows(), empty, progress, |buffers, band, pixels| {
-            self.for_each_row(buffers, band, Keep::Centers, pixels, |buffers, [first, row], pixels| {
-                for (column, out) in (first..).zip(pixels) {
-                    let center = center(grid, buffers, [column, row]);
-                    if !center.is_empty() {
-                        *out = pixel(&center);
-                    }
-                }
-            })
-        });
+        let (pixels, _) =
+            paint_parts(grid, grid.band_rows(), empty, progress, |buffers, band, pixels| {
+                self.for_each_row(
+                    buffers,
+                    band,
+                    Keep::Centers,
+                    pixels,
+                    |buffers, [first, row], pixels| {
+                        for (column, out) in (first..).zip(pixels) {
+                            let center = center(grid, buffers, [column, row]);
+                            if !center.is_empty() {
+                                *out = pixel(&center);
+                            }
+                        }
+                    },
+                )
+            });
         pixels
     }
 
@@ -87,8 +94,13 @@ impl<const N: usize> Rasterizer<'_, N> {
             for column in (0..grid.width).step_by(grid.tile_columns() as usize) {
                 let end_column = (column + grid.tile_columns()).min(grid.width);
                 let end_row = row + rows.len() as u32 / grid.width;
-                stats =
-                    stats.merge(self.draw_tile(buffers, band, [column, end_column], [row, end_row], keep));
+                stats = stats.merge(self.draw_tile(
+                    buffers,
+                    band,
+                    [column, end_column],
+                    [row, end_row],
+                    keep,
+                ));
                 for (row, pixels) in (row..).zip(rows.chunks_mut(width)) {
                     take(buffers, [column, row], &mut pixels[column as usize..end_column as usize]);
                 }

@@ -154,7 +154,11 @@ impl<'a, const N: usize> Resolver<'a, N> {
     }
 
     /// The samples of one pixel.
-    pub fn pixel_samples<'t>(&mut self, buffers: &'t TileBuffers<N>, pixel: [u32; 2]) -> PixelSamples<'t> {
+    pub fn pixel_samples<'t>(
+        &mut self,
+        buffers: &'t TileBuffers<N>,
+        pixel: [u32; 2],
+    ) -> PixelSamples<'t> {
         self.add_up(buffers, pixel, 1);
         pixel_samples(self.grid, buffers, pixel, &self.sums[0])
     }
@@ -199,7 +203,12 @@ impl<'a, const N: usize> Resolver<'a, N> {
 
     /// Linear light and coverage of the samples from column `first` to `end` of a row; `None` if
     /// nothing is visible there.
-    pub fn light(&mut self, buffers: &TileBuffers<N>, row: u32, [first, end]: [u32; 2]) -> Option<&Planes> {
+    pub fn light(
+        &mut self,
+        buffers: &TileBuffers<N>,
+        row: u32,
+        [first, end]: [u32; 2],
+    ) -> Option<&Planes> {
         let mut is_lit = self.light_opaque(&buffers.tile, row, [first, end]);
         if !buffers.transparency.is_empty() || self.grid.fade.is_some() {
             self.composite(buffers, row, first);
@@ -236,7 +245,8 @@ impl<'a, const N: usize> Resolver<'a, N> {
         let (keys, _) = buffers.tile.row_part(row, first, first + self.lit[0].len() as u32);
         for (idx, &key) in keys.iter().enumerate() {
             let composite = buffers.transparency.composite(row, first + idx as u32);
-            let part = if key > EMPTY { composite.transmittance * self.grid.light_left(key) } else { 0.0 };
+            let part =
+                if key > EMPTY { composite.transmittance * self.grid.light_left(key) } else { 0.0 };
             let [light @ .., coverage] = &mut self.lit;
             for (light, composite) in light.iter_mut().zip(composite.light) {
                 light[idx] = composite + part * light[idx];

@@ -10,7 +10,12 @@ use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, Tr
 const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Draws a block of triangles into a tile where the depth test passes.
-pub fn draw_block(level: Level, block: &BlockSetup<'_>, tile: TileSamples<'_>, planes: &mut LazyPlanes<'_>) {
+pub fn draw_block(
+    level: Level,
+    block: &BlockSetup<'_>,
+    tile: TileSamples<'_>,
+    planes: &mut LazyPlanes<'_>,
+) {
     // Compiled twice: most scenes share no planes.
     if tile.planes.is_empty() {
         dispatch!(level, simd => block.draw(&mut SimdTile::<_, false> { simd, tile }, planes));
@@ -27,7 +32,12 @@ struct SimdTile<'a, S, const SHARES_PLANES: bool> {
 
 impl<S: Simd, const SHARES_PLANES: bool> RowTarget for SimdTile<'_, S, SHARES_PLANES> {
     #[inline(always)]
-    fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
+    fn draw_row(
+        &mut self,
+        row: &TriangleRow,
+        triangle: &TriangleRef<'_>,
+        planes: &mut LazyPlanes<'_>,
+    ) {
         let Self { simd, ref mut tile } = *self;
         let [first, end] = row.columns;
         let plane = if SHARES_PLANES { shared_plane(tile.planes, triangle.item()) } else { None };

@@ -116,7 +116,13 @@ impl TileSamples<'_> {
 impl<const N: usize> Default for Tile<N> {
     fn default() -> Self {
         let values = [const { Vec::new() }; N];
-        Self { area: Area::default(), keys: Vec::new(), values, items: Vec::new(), planes: Arc::default() }
+        Self {
+            area: Area::default(),
+            keys: Vec::new(),
+            values,
+            items: Vec::new(),
+            planes: Arc::default(),
+        }
     }
 }
 

@@ -215,7 +215,9 @@ impl TransparencyBuffer {
         for &end in ends.iter() {
             let of_sample = &mut order[start as usize..end as usize];
             if of_sample.len() > 1 {
-                of_sample.sort_by(|&a, &b| fragments[a as usize].key.total_cmp(&fragments[b as usize].key));
+                of_sample.sort_by(|&a, &b| {
+                    fragments[a as usize].key.total_cmp(&fragments[b as usize].key)
+                });
                 if !planes.is_empty() {
                     put_first_of_plane_in_front(of_sample, |idx| &fragments[idx as usize], planes);
                 }
@@ -338,7 +340,8 @@ impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
         if self.target.fragments.len() >= self.target.max_fragments {
             return;
         }
-        let (mut places, mut values) = ([(0, 0.0); TOGETHER], [[0.0; TOGETHER]; TRANSPARENT_VALUES]);
+        let (mut places, mut values) =
+            ([(0, 0.0); TOGETHER], [[0.0; TOGETHER]; TRANSPARENT_VALUES]);
         let mut n = 0;
         for (column, index) in columns.clone().zip(self.target.opaque.area.indices(row, &columns)) {
             // No fragment of a row occludes another one, so their order does not matter.
@@ -400,21 +403,33 @@ impl FragmentWriter<'_, '_> {
 }
 
 impl RowTarget for FragmentWriter<'_, '_> {
-    fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
-        let planes: &[Plane; TRANSPARENT_VALUES] =
-            planes.get(triangle).try_into().expect("transparent shapes have a plane for each value");
+    fn draw_row(
+        &mut self,
+        row: &TriangleRow,
+        triangle: &TriangleRef<'_>,
+        planes: &mut LazyPlanes<'_>,
+    ) {
+        let planes: &[Plane; TRANSPARENT_VALUES] = planes
+            .get(triangle)
+            .try_into()
+            .expect("transparent shapes have a plane for each value");
         let starts = planes.each_ref().map(|plane| plane.start(row));
         let is_perspective = triangle.is_perspective();
-        self.draw_each(row.row, row.columns[0]..row.columns[1], triangle.item(), |column, occluder_key| {
-            let place = f64::from(column) + 0.5;
-            let key = row.key_at(place);
-            if key as f32 <= occluder_key {
-                return None;
-            }
-            let scale = if is_perspective { 1.0 / key } else { 1.0 };
-            let across = place - row.from;
-            let value = |i: usize| ((starts[i] + across * planes[i].per_column) * scale) as f32;
-            Some((key as f32, std::array::from_fn(value)))
-        });
+        self.draw_each(
+            row.row,
+            row.columns[0]..row.columns[1],
+            triangle.item(),
+            |column, occluder_key| {
+                let place = f64::from(column) + 0.5;
+                let key = row.key_at(place);
+                if key as f32 <= occluder_key {
+                    return None;
+                }
+                let scale = if is_perspective { 1.0 / key } else { 1.0 };
+                let across = place - row.from;
+                let value = |i: usize| ((starts[i] + across * planes[i].per_column) * scale) as f32;
+                Some((key as f32, std::array::from_fn(value)))
+            },
+        );
     }
 }

@@ -126,7 +126,12 @@ impl BlockSetup<'_> {
 /// Receives the samples of triangles.
 pub trait RowTarget {
     /// Draws one row. `planes` are computed when they are first read.
-    fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>);
+    fn draw_row(
+        &mut self,
+        row: &TriangleRow,
+        triangle: &TriangleRef<'_>,
+        planes: &mut LazyPlanes<'_>,
+    );
 }
 
 /// The samples of a triangle on one row.
@@ -276,7 +281,13 @@ fn swap<S: Simd>((a, i): &mut (Corners<S>, f64x8<S>), (b, j): &mut (Corners<S>, 
 
 impl BlockSpans {
     /// Intersects the first `n` triangles of a block with rows of samples.
-    fn new(level: Level, block: &TriangleBlock, n: usize, rows: [u32; 2], columns: [u32; 2]) -> Self {
+    fn new(
+        level: Level,
+        block: &TriangleBlock,
+        n: usize,
+        rows: [u32; 2],
+        columns: [u32; 2],
+    ) -> Self {
         dispatch!(level, simd => Self::new_on(simd, block, n, rows, columns))
     }
 
@@ -297,7 +308,8 @@ impl BlockSpans {
         swap(&mut top, &mut middle);
         let order = [top.1.into(), middle.1.into(), bottom.1.into()];
         let sorted @ [top, middle, bottom] = [&top.0, &middle.0, &bottom.0];
-        let (picture_top, picture_bottom) = (number(f64::from(first_row)), number(f64::from(end_row)));
+        let (picture_top, picture_bottom) =
+            (number(f64::from(first_row)), number(f64::from(end_row)));
         let row_of = |corner: &Corners<S>| first_centers(corner.y, picture_top, picture_bottom);
         let (first, knee) = (row_of(top), row_of(middle));
         let steps: f64x8<S> = STEPS.simd_into(simd);

@@ -18,7 +18,9 @@ pub fn newell_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
     let Some(origin) = rest.next() else {
         return DVec3::ZERO;
     };
-    rest.clone().zip(rest.skip(1)).fold(DVec3::ZERO, |sum, (a, b)| sum + (a - origin).cross(b - origin))
+    rest.clone()
+        .zip(rest.skip(1))
+        .fold(DVec3::ZERO, |sum, (a, b)| sum + (a - origin).cross(b - origin))
 }
 
 /// Unit normal of a polygon of any size, right-handed; zero if it has no area.
@@ -33,7 +35,11 @@ pub fn unit_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
     // Halved first: the difference of large coordinates may overflow.
     let halves = corners.map(|corner| corner * 0.5 - origin * 0.5);
     let largest = halves.clone().map(|half| half.abs().max_element()).fold(0.0, f64::max);
-    if largest > 0.0 { unit_or_zero(newell_normal(halves.map(|half| half / largest))) } else { DVec3::ZERO }
+    if largest > 0.0 {
+        unit_or_zero(newell_normal(halves.map(|half| half / largest)))
+    } else {
+        DVec3::ZERO
+    }
 }
 
 /// The edges of a face, contour by contour, each from one corner to the next.

@@ -88,7 +88,8 @@ impl BodyBoxes {
         }
         for (body, round) in scene.rounds() {
             let [low, high] = round.bounds();
-            bodies[body.index()].push(Part { points: [low, high], ..Part::empty(body).with(low, high) });
+            bodies[body.index()]
+                .push(Part { points: [low, high], ..Part::empty(body).with(low, high) });
             n_parts += 1;
         }
         let most = n_parts.div_ceil(N_BOXES).max(1);
@@ -162,7 +163,8 @@ impl BodyBoxes {
 /// most `most` parts.
 fn divide(parts: &mut [Part], most: usize, boxes: &mut Vec<Part>) {
     let Some(first) = parts.first() else { return };
-    let mut whole = parts.iter().fold(Part::empty(first.body), |whole, part| whole.with(part.low, part.high));
+    let mut whole =
+        parts.iter().fold(Part::empty(first.body), |whole, part| whole.with(part.low, part.high));
     whole.points = [first.points[0], parts[parts.len() - 1].points[1]];
     if parts.len() <= most {
         boxes.push(whole);
@@ -211,7 +213,8 @@ impl SeenBoxes {
         if self.camera_speed > 0.0 {
             return [self.camera_speed; 2];
         }
-        let speeds = self.followed().into_iter().map(|row| self.motion(row).velocity().beta().length());
+        let speeds =
+            self.followed().into_iter().map(|row| self.motion(row).velocity().beta().length());
         let [least, greatest] = speeds.fold([f64::INFINITY, 0.0], |[least, greatest], speed| {
             [least.min(speed), f64::max(greatest, speed)]
         });
@@ -258,7 +261,8 @@ impl SeenBoxes {
             return None;
         }
         let center = self.placed.eye + direction.normalize() * distance;
-        Some(rounded(center, unit_of_rounding(distance) - 3)).filter(|center| *center != self.placed.eye)
+        Some(rounded(center, unit_of_rounding(distance) - 3))
+            .filter(|center| *center != self.placed.eye)
     }
 
     fn motion(&self, row: usize) -> &RelativeMotion {
@@ -272,7 +276,8 @@ impl SeenBoxes {
             (0..self.n_boxes).filter(|&row| is_it(self.motion(row))).collect::<Vec<usize>>()
         };
         let moving = rows(&|motion| !motion.in_scene().is_zero());
-        let relative = if moving.is_empty() { rows(&|motion| !motion.is_at_rest()) } else { moving };
+        let relative =
+            if moving.is_empty() { rows(&|motion| !motion.is_at_rest()) } else { moving };
         if relative.is_empty() { (0..self.n_boxes).collect() } else { relative }
     }
 
@@ -292,7 +297,8 @@ impl SeenBoxes {
     pub(crate) fn time_scale(&self) -> Option<f64> {
         let speeds = (0..self.n_boxes).map(|row| self.motion(row).velocity().beta().length());
         let speed = speeds.fold(0.0, f64::max);
-        let distance = self.seen.iter().map(|&corner| ugphysics::length(corner)).fold(0.0, f64::max);
+        let distance =
+            self.seen.iter().map(|&corner| ugphysics::length(corner)).fold(0.0, f64::max);
         (speed > 0.0).then(|| distance.max(self.view.distance) / speed)
     }
 
@@ -304,15 +310,15 @@ impl SeenBoxes {
         let spaces: Vec<_> = self.view.half_spaces().into_iter().flatten().collect();
         let is_inside = |at: usize| {
             let place = self.seen[at];
-            let margin = |space: &HalfSpace| MARGIN * space.normal.dot(self.view.forward) * place.length();
+            let margin =
+                |space: &HalfSpace| MARGIN * space.normal.dot(self.view.forward) * place.length();
             spaces.iter().all(|space| place.dot(space.normal) + space.offset > margin(space))
         };
         let sends_light = |row: usize, at: usize| self.motion(row).light(self.rest[at]).is_ok();
         // Faster, 1 is the nearest number to a speed, and scenes as seen cannot state it.
         let is_below_1 = |row: &usize| self.motion(*row).velocity().beta().length() < 1.0;
-        self.followed()
-            .into_iter()
-            .filter(is_below_1)
-            .any(|row| (corners(row).end..N_ROWS * (row + 1)).any(|at| is_inside(at) && sends_light(row, at)))
+        self.followed().into_iter().filter(is_below_1).any(|row| {
+            (corners(row).end..N_ROWS * (row + 1)).any(|at| is_inside(at) && sends_light(row, at))
+        })
     }
 }

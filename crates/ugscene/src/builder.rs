@@ -8,8 +8,8 @@ use ugphysics::Velocity;
 
 use crate::words::messages;
 use crate::{
-    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
-    SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
+    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId,
+    SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
 };
 
 /// The most vertices, corners or rows of any other table: ids have 32 bits, and one is for nothing.
@@ -142,17 +142,30 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// See [`BuildError`]. Sampled spectra are added by [`SceneBuilder::spectrum`].
-    pub fn color(&mut self, name: &str, value: ColorValue, translucency: f64) -> Result<ColorId, BuildError> {
-        let within = |numbers: &[f64], high: f64| numbers.iter().all(|number| (0.0..=high).contains(number));
+    pub fn color(
+        &mut self,
+        name: &str,
+        value: ColorValue,
+        translucency: f64,
+    ) -> Result<ColorId, BuildError> {
+        let within =
+            |numbers: &[f64], high: f64| numbers.iter().all(|number| (0.0..=high).contains(number));
         let (is_valid, range) = match value {
-            ColorValue::Hsv { value, tint: Tint::Hue(tint) | Tint::Wavelength(tint), saturation, factor } => {
-                (
-                    within(&[value, factor], f64::MAX) && tint.is_finite() && within(&[saturation], 1.0),
-                    "lightness and factor are 0 or more, saturation is 0 to 1",
-                )
-            }
+            ColorValue::Hsv {
+                value,
+                tint: Tint::Hue(tint) | Tint::Wavelength(tint),
+                saturation,
+                factor,
+            } => (
+                within(&[value, factor], f64::MAX)
+                    && tint.is_finite()
+                    && within(&[saturation], 1.0),
+                "lightness and factor are 0 or more, saturation is 0 to 1",
+            ),
             ColorValue::Rgb(rgb) => (within(&rgb, 1.0), "red, green and blue are 0 to 1"),
-            ColorValue::Xyz(xyz) => (xyz.iter().all(|part| part.is_finite()), "X, Y and Z are finite"),
+            ColorValue::Xyz(xyz) => {
+                (xyz.iter().all(|part| part.is_finite()), "X, Y and Z are finite")
+            }
             ColorValue::Blackbody { kelvin, scale } => (
                 kelvin > 0.0 && kelvin.is_finite() && within(&[scale], f64::MAX),
                 "kelvin above 0, scale 0 or more",
@@ -164,7 +177,11 @@ impl SceneBuilder {
             return Err(BuildError::OutOfRange { what: "colour", row, range });
         }
         if !within(&[translucency], 1.0) {
-            return Err(BuildError::OutOfRange { what: "translucency of colour", row, range: "0 to 1" });
+            return Err(BuildError::OutOfRange {
+                what: "translucency of colour",
+                row,
+                range: "0 to 1",
+            });
         }
         self.add_color(name, value, translucency)
     }
@@ -187,10 +204,16 @@ impl SceneBuilder {
         self.sampled(name, samples, true)
     }
 
-    fn sampled(&mut self, name: &str, samples: &[[f64; 2]], reflects: bool) -> Result<ColorId, BuildError> {
+    fn sampled(
+        &mut self,
+        name: &str,
+        samples: &[[f64; 2]],
+        reflects: bool,
+    ) -> Result<ColorId, BuildError> {
         let mut before = 0.0;
         for (row, &[wavelength, value]) in samples.iter().enumerate() {
-            if !(wavelength > before && wavelength.is_finite() && (0.0..=f64::MAX).contains(&value)) {
+            if !(wavelength > before && wavelength.is_finite() && (0.0..=f64::MAX).contains(&value))
+            {
                 let range = "wavelengths increase from above 0, values are 0 or more";
                 return Err(BuildError::OutOfRange { what: "sample", row, range });
             }
@@ -204,12 +227,18 @@ impl SceneBuilder {
             return Err(BuildError::TooMany);
         }
         let end = (start + samples.len()) as u32;
-        let id = self.add_color(name, ColorValue::Spectrum { reflects, start: start as u32, end }, 0.0)?;
+        let id =
+            self.add_color(name, ColorValue::Spectrum { reflects, start: start as u32, end }, 0.0)?;
         self.scene.samples.extend_from_slice(samples);
         Ok(id)
     }
 
-    fn add_color(&mut self, name: &str, value: ColorValue, translucency: f64) -> Result<ColorId, BuildError> {
+    fn add_color(
+        &mut self,
+        name: &str,
+        value: ColorValue,
+        translucency: f64,
+    ) -> Result<ColorId, BuildError> {
         enter(&mut self.color_names, name)?;
         let name = self.scene.names.add(name);
         self.scene.colors.push(Color { name, value, translucency });
@@ -220,9 +249,17 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// See [`BuildError`].
-    pub fn surface(&mut self, name: &str, surface: SurfaceProperties) -> Result<SurfaceId, BuildError> {
+    pub fn surface(
+        &mut self,
+        name: &str,
+        surface: SurfaceProperties,
+    ) -> Result<SurfaceId, BuildError> {
         if let Some(range) = surface.violated() {
-            return Err(BuildError::OutOfRange { what: "surface", row: self.scene.surfaces.len(), range });
+            return Err(BuildError::OutOfRange {
+                what: "surface",
+                row: self.scene.surfaces.len(),
+                range,
+            });
         }
         enter(&mut self.surface_names, name)?;
         let name = self.scene.names.add(name);
@@ -290,12 +327,20 @@ impl SceneBuilder {
         require("normal", normals, "finite, and not 0", is_direction)?;
         let Scene { colors: all_colors, surfaces, bodies, .. } = &self.scene;
         require_rows("corner", 0, corners.iter().map(|&corner| corner as usize), n_vertices)?;
-        require_rows("colour of vertex", 0, colors.iter().map(|color| color.index()), all_colors.len())?;
+        require_rows(
+            "colour of vertex",
+            0,
+            colors.iter().map(|color| color.index()),
+            all_colors.len(),
+        )?;
         require_rows("colour of mesh", 0, mesh.color.map(ColorId::index), all_colors.len())?;
         require_rows("surface of mesh", 0, mesh.surface.map(SurfaceId::index), surfaces.len())?;
         require_rows("body of mesh", 0, mesh.body.map(BodyId::index), bodies.len())?;
-        let sizes =
-            if mesh.sizes.is_empty() { vec![3; corners.len().div_ceil(3)] } else { mesh.sizes.to_vec() };
+        let sizes = if mesh.sizes.is_empty() {
+            vec![3; corners.len().div_ceil(3)]
+        } else {
+            mesh.sizes.to_vec()
+        };
         require("size of face", &sizes, "3 or more", |size| *size >= 3)?;
         let expected = sizes.iter().map(|&size| size as usize).fold(0, usize::saturating_add);
         if expected != corners.len() {
@@ -320,11 +365,22 @@ impl SceneBuilder {
         };
         let row = self.scene.lights.len();
         if !is_valid || !light.intensity.is_finite() {
-            let range = "finite, a direction not 0, a radius 0 or more, a reference distance above 0";
+            let range =
+                "finite, a direction not 0, a radius 0 or more, a reference distance above 0";
             return Err(BuildError::OutOfRange { what: "light", row, range });
         }
-        require_rows("colour of light", row, light.color.map(ColorId::index), self.scene.colors.len())?;
-        require_rows("body of light", row, light.motion.body().map(BodyId::index), self.scene.bodies.len())?;
+        require_rows(
+            "colour of light",
+            row,
+            light.color.map(ColorId::index),
+            self.scene.colors.len(),
+        )?;
+        require_rows(
+            "body of light",
+            row,
+            light.motion.body().map(BodyId::index),
+            self.scene.bodies.len(),
+        )?;
         self.scene.lights.push(Light { name: None, ..light });
         Ok(())
     }
@@ -380,8 +436,8 @@ fn require_rows(
 /// Checks a name and adds it to those in use.
 fn enter(names: &mut FxHashSet<String>, name: &str) -> Result<(), BuildError> {
     let is_letter = |byte: u8| byte.is_ascii_alphanumeric() || b":_#".contains(&byte);
-    let is_name =
-        name.bytes().all(is_letter) && name.bytes().next().is_some_and(|first| !first.is_ascii_digit());
+    let is_name = name.bytes().all(is_letter)
+        && name.bytes().next().is_some_and(|first| !first.is_ascii_digit());
     if !is_name {
         return Err(BuildError::Name { name: name.to_owned() });
     }

@@ -15,7 +15,11 @@ const NEAREST: f64 = 1e-6;
 /// [`CameraError::NoDirection`].
 pub fn view_distance(eye: DVec3, center: DVec3) -> Result<f64, CameraError> {
     let distance = ugphysics::length(center - eye);
-    if distance > 0.0 && distance.is_finite() { Ok(distance) } else { Err(CameraError::NoDirection { eye }) }
+    if distance > 0.0 && distance.is_finite() {
+        Ok(distance)
+    } else {
+        Err(CameraError::NoDirection { eye })
+    }
 }
 
 /// A point in front of the camera, before projection.
@@ -96,8 +100,10 @@ impl View {
         let camera = rows([right, up, forward, DVec3::ZERO], [shift[0], shift[1], shift[2], 1.0]);
         let part = |idx: usize, axis: DVec3, sign: f64| {
             // Samples are counted to the right and down.
-            let [scale, middle] =
-                [2.0 * self.scale[idx] / self.size[idx], 2.0 * self.axis[idx] / self.size[idx] - 1.0];
+            let [scale, middle] = [
+                2.0 * self.scale[idx] / self.size[idx],
+                2.0 * self.axis[idx] / self.size[idx] - 1.0,
+            ];
             let column = scale * axis + sign * middle * forward;
             (column, -column.dot(self.eye))
         };
@@ -111,13 +117,19 @@ impl View {
     ///
     /// # Errors
     /// [`CameraError`] if the combination is invalid.
-    pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
+    pub fn new(
+        scene: &Scene,
+        options: &CameraOptions,
+        samples: [u32; 2],
+    ) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
         let seen;
         let options = if options.is_ahead && scene.stage.seen_geometry().is_some() {
             // They state the view at rest; the scene's camera has that in motion.
-            let both = |(_, down): (f64, Option<f64>)| camera.view_angle.map(|[a, b]| (a, down.map(|_| b)));
+            let both = |(_, down): (f64, Option<f64>)| {
+                camera.view_angle.map(|[a, b]| (a, down.map(|_| b)))
+            };
             let view_angle = options.view_angle.and_then(both);
             seen = CameraOptions { center: None, up: None, view_angle, ..options.clone() };
             &seen
@@ -159,8 +171,10 @@ impl View {
         let distance = view_distance(eye, center)?;
         options.check_up()?;
         let forward = (center - eye) / distance;
-        let (right, is_up_replaced) = right_of(forward, options.up.or(camera.up).unwrap_or(DVec3::Z));
-        let is_perspective = !options.is_orthographic && camera.projection != Some(Projection::Orthographic);
+        let (right, is_up_replaced) =
+            right_of(forward, options.up.or(camera.up).unwrap_or(DVec3::Z));
+        let is_perspective =
+            !options.is_orthographic && camera.projection != Some(Projection::Orthographic);
         let film = Film::new(camera, options, samples)?;
         // At the distance of the view centre both projections have the same scale.
         let half = film.half.map(|half| if is_perspective { half } else { half * distance });
@@ -193,7 +207,8 @@ impl View {
             }
         };
         let (x, y) = (self.scale[0] * self.right, -self.scale[1] * self.up);
-        let depth = |normal: DVec3, offset: f64| offset.is_finite().then_some(HalfSpace { normal, offset });
+        let depth =
+            |normal: DVec3, offset: f64| offset.is_finite().then_some(HalfSpace { normal, offset });
         [
             Some(side(x, self.axis[0])),
             Some(side(-x, self.size[0] - self.axis[0])),

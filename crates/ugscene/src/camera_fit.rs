@@ -69,7 +69,8 @@ impl SeenBody {
     fn new(motion: &RelativeMotion, middle: DVec3, eye: DVec3, axes: [DVec3; 3]) -> Self {
         let boosted = |p: DVec3| motion.boosted_rest(p);
         let anchor = boosted(motion.rest(SeenPosition(middle - eye)).0);
-        let [x, y, z] = DMat3::IDENTITY.to_cols_array_2d().map(|axis| boosted(motion.turned(axis.into())));
+        let [x, y, z] =
+            DMat3::IDENTITY.to_cols_array_2d().map(|axis| boosted(motion.turned(axis.into())));
         let along = axes.map(|axis| {
             let (normal, flight) = motion.seen_part(axis);
             (axis.dot(middle), normal, flight)
@@ -93,7 +94,11 @@ impl SeenBody {
 impl Frame {
     /// The nearest place from which everything is seen in the filled part of the picture.
     pub(crate) fn fit(&self, subject: &Subject<'_>) -> Place {
-        let moves = subject.bodies.iter().flat_map(|(_, motions)| motions).any(|motion| !motion.is_at_rest());
+        let moves = subject
+            .bodies
+            .iter()
+            .flat_map(|(_, motions)| motions)
+            .any(|motion| !motion.is_at_rest());
         let [x, y, z] = self.axes;
         let axes = [x, y, if self.is_orthographic { DVec3::ZERO } else { z }];
         let mut place = Place { offset: [0.0; 2], distance: 2.0 * self.nearest };

@@ -79,7 +79,11 @@ pub(crate) struct Film {
 impl Film {
     /// Pixels are square unless both angles are given as options: otherwise the angle across is
     /// used, and the height follows from the aspect ratio of the picture.
-    pub fn new(camera: &Camera, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
+    pub fn new(
+        camera: &Camera,
+        options: &CameraOptions,
+        samples: [u32; 2],
+    ) -> Result<Self, CameraError> {
         let [min_x, min_y, max_x, max_y] = camera.film.unwrap_or([0.0, 0.0, 1.0, 1.0]);
         if !(min_x < max_x && min_y < max_y) {
             return Err(CameraError::FilmRectangle);
@@ -110,7 +114,9 @@ pub(crate) fn half_film(options: &CameraOptions, size: [u32; 2]) -> Result<[f64;
 pub(crate) fn half_width_of(camera: &Camera) -> Result<f64, CameraError> {
     match (camera.view_angle, camera.film_size, camera.focal_length) {
         (Some([across, _]), _, _) => half_side(across),
-        (None, Some([width, _]), Some(length)) if width > 0.0 && length > 0.0 => Ok(0.5 * width / length),
+        (None, Some([width, _]), Some(length)) if width > 0.0 && length > 0.0 => {
+            Ok(0.5 * width / length)
+        }
         (None, Some(_), Some(_)) => Err(CameraError::Film),
         _ => half_side(DEFAULT_VIEW_ANGLE),
     }

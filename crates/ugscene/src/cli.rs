@@ -278,6 +278,8 @@ fn anchor(words: &[String]) -> Result<Anchor, Failure> {
     };
     anchor.ok_or_else(|| {
         let words = words.join(" ");
-        Failure::Usage(format!("`{words}` is not an anchor: -an takes eye, origin, center or three numbers"))
+        Failure::Usage(format!(
+            "`{words}` is not an anchor: -an takes eye, origin, center or three numbers"
+        ))
     })
 }

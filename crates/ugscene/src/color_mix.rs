@@ -20,7 +20,8 @@ impl ColorMix {
     #[must_use]
     pub fn of_spectra(self, scene: &Scene) -> Self {
         let mix = |color: Option<ColorId>| color.map_or(&[][..], |color| scene.mix_of(color));
-        let has_none = scene.mixes.is_empty() || self.parts().all(|(color, _)| mix(color).is_empty());
+        let has_none =
+            scene.mixes.is_empty() || self.parts().all(|(color, _)| mix(color).is_empty());
         if has_none {
             return self;
         }
@@ -48,7 +49,8 @@ impl ColorMix {
 /// the speed.
 pub fn vertex_mixes(scene: &Scene, positions: &[DVec3]) -> Vec<ColorMix> {
     // If all vertices have a colour, the faces do not matter.
-    let own = scene.vertices.iter().map(|vertex| vertex.color.map(|color| ColorMix::One(Some(color))));
+    let own =
+        scene.vertices.iter().map(|vertex| vertex.color.map(|color| ColorMix::One(Some(color))));
     if let Some(shares) = own.collect() {
         return shares;
     }
@@ -58,7 +60,10 @@ pub fn vertex_mixes(scene: &Scene, positions: &[DVec3]) -> Vec<ColorMix> {
     if sums.iter().any(|sum| matches!(sum, Sum::Many(_))) {
         for_each_corner(scene, |contour, idx, color, is_of_face| {
             if let Sum::Many(parts) = &mut sums[contour[idx].index()] {
-                parts.add(color, if is_of_face { corner_angle(contour, idx, positions) } else { 1.0 });
+                parts.add(
+                    color,
+                    if is_of_face { corner_angle(contour, idx, positions) } else { 1.0 },
+                );
             }
         });
     }
@@ -67,7 +72,10 @@ pub fn vertex_mixes(scene: &Scene, positions: &[DVec3]) -> Vec<ColorMix> {
 
 /// Calls `visit` with each corner of a face, and of wires at vertices that no face uses: the
 /// contour, the index in it, the colour, and true for a face.
-fn for_each_corner(scene: &Scene, mut visit: impl FnMut(&[VertexId], usize, Option<ColorId>, bool)) {
+fn for_each_corner(
+    scene: &Scene,
+    mut visit: impl FnMut(&[VertexId], usize, Option<ColorId>, bool),
+) {
     for face in &scene.faces {
         for contour in scene.face_contours(face) {
             (0..contour.len()).for_each(|idx| visit(contour, idx, face.color, true));
@@ -130,7 +138,9 @@ impl Parts {
         self.all.push((color, weight));
         match self.all.len() - 1 {
             ..Self::FEW => {}
-            Self::FEW => self.index.extend(self.all.iter().enumerate().map(|(row, part)| (part.0, row))),
+            Self::FEW => {
+                self.index.extend(self.all.iter().enumerate().map(|(row, part)| (part.0, row)))
+            }
             last => drop(self.index.insert(color, last)),
         }
     }

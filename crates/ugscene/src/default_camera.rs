@@ -68,7 +68,8 @@ impl DefaultCamera {
         let radius = points.iter().fold(0.0, |most: f64, (point, _)| most.max(point.length()));
         let radius = if radius > 0.0 { radius } else { 1.0 };
         let bodies = bodies(scene, &points, motions);
-        let velocities = bodies.iter().flat_map(|(_, motions)| motions).map(|one| one.velocity().beta());
+        let velocities =
+            bodies.iter().flat_map(|(_, motions)| motions).map(|one| one.velocity().beta());
         let behind = if options.is_ahead { velocities.clone().sum::<DVec3>() } else { DVec3::ZERO };
         let (toward_eye, bodies) = if behind == DVec3::ZERO {
             (toward_eye(options.up, velocities), bodies)
@@ -142,14 +143,19 @@ fn bodies(
         (*low, *high) = (low.min(point), high.max(point));
     }
     let one = |(body, (low, high)): (BodyId, (DVec3, DVec3))| {
-        if low.x <= high.x { (low.midpoint(high), motions(body)) } else { (DVec3::ZERO, Vec::new()) }
+        if low.x <= high.x {
+            (low.midpoint(high), motions(body))
+        } else {
+            (DVec3::ZERO, Vec::new())
+        }
     };
     scene.bodies.ids().zip(boxes).map(one).collect()
 }
 
 /// The longest coordinate of a point relative to `center`; 1 for a single point.
 fn longest(points: &[(DVec3, BodyId)], center: DVec3) -> f64 {
-    let longest = points.iter().fold(0.0, |most: f64, (p, _)| most.max((*p - center).abs().max_element()));
+    let longest =
+        points.iter().fold(0.0, |most: f64, (p, _)| most.max((*p - center).abs().max_element()));
     if longest > 0.0 { longest } else { 1.0 }
 }
 
@@ -162,8 +168,8 @@ fn up(up: Option<DVec3>) -> DVec3 {
 fn toward_eye(up_option: Option<DVec3>, velocities: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let scene_from_side = DQuat::from_rotation_arc(DVec3::Z, up(up_option));
     let DVec3 { x, y, z } = TOWARD_EYE.normalize();
-    let mut sides =
-        [[x, y], [-x, -y], [-y, x], [y, -x]].map(|[x, y]| (scene_from_side * DVec3::new(x, y, z), -1.0));
+    let mut sides = [[x, y], [-x, -y], [-y, x], [y, -x]]
+        .map(|[x, y]| (scene_from_side * DVec3::new(x, y, z), -1.0));
     for velocity in velocities {
         let direction = velocity.normalize_or_zero();
         for (toward_eye, nearest) in &mut sides {
@@ -187,7 +193,8 @@ pub(crate) fn unit_of_rounding(distance: f64) -> i32 {
 pub(crate) fn rounded(p: DVec3, exponent: i32) -> DVec3 {
     let power: f64 = format!("1e{}", exponent.abs()).parse().unwrap_or(1.0);
     let one = |x: f64| {
-        let near = if exponent < 0 { (x * power).round() / power } else { (x / power).round() * power };
+        let near =
+            if exponent < 0 { (x * power).round() / power } else { (x / power).round() * power };
         // Not −0.
         if near.is_finite() { near + 0.0 } else { x }
     };

@@ -30,7 +30,8 @@ pub fn thickness(scene: &Scene, face: &Face) -> f64 {
     let corners = scene.face_corners(face);
     let positions = || corners.iter().map(|&corner| scene.vertices[corner.index()].position);
     let Some(first) = positions().next().filter(|_| !face.shape.is_round()) else { return 0.0 };
-    let mean = positions().map(|corner| corner - first).sum::<DVec3>() / corners.len() as f64 + first;
+    let mean =
+        positions().map(|corner| corner - first).sum::<DVec3>() / corners.len() as f64 + first;
     let outline = scene.contours.get(face.contours.start).iter();
     let normal = unit_normal(outline.map(|&corner| scene.vertices[corner.index()].position));
     let distance = positions().map(|corner| (corner - mean).dot(normal).abs()).fold(0.0, f64::max);
@@ -53,7 +54,9 @@ pub fn bent_faces(scene: &Scene) -> Vec<BentFace> {
         (thickness > BENT).then_some(BentFace { row, thickness })
     };
     // No face has fewer than three corners, so if the mean is three, all are triangles.
-    if scene.contours.corner_count() == 3 * scene.faces.len() || scene.stage.seen_geometry().is_some() {
+    if scene.contours.corner_count() == 3 * scene.faces.len()
+        || scene.stage.seen_geometry().is_some()
+    {
         return Vec::new();
     }
     (0..scene.faces.len()).into_par_iter().with_min_len(MANY_FACES).filter_map(bent).collect()

@@ -71,12 +71,13 @@ pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use note::{Note, may_miss_motion};
 pub use observe::*;
 pub use requirements::{
-    StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, refuse_deferred_colors,
-    require_colors_at_rest, require_eye, require_geometry_at_rest, require_seen_geometry,
-    write_display_as_hues,
+    StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in,
+    refuse_deferred_colors, require_colors_at_rest, require_eye, require_geometry_at_rest,
+    require_seen_geometry, write_display_as_hues,
 };
 pub use rounds::{
-    FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest, cut_rounds_on_world_lines, seen_sagitta,
+    FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest, cut_rounds_on_world_lines,
+    seen_sagitta,
 };
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};

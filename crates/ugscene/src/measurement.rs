@@ -44,8 +44,9 @@ pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
             velocity: v.beta(),
         }
     };
-    let of_vertex =
-        |(row, vertex): (usize, &Vertex)| one(vertex.position - eye, vertices.velocity(row, &frames));
+    let of_vertex = |(row, vertex): (usize, &Vertex)| {
+        one(vertex.position - eye, vertices.velocity(row, &frames))
+    };
     scene.vertices.iter().enumerate().map(of_vertex).collect()
 }
 
@@ -56,8 +57,14 @@ impl Measurement {
 
     /// All numbers but the velocity.
     pub fn scalars(&self) -> [f64; 5] {
-        let Self { distance, emission_time, doppler, emission_angle_deg, rest_emission_angle_deg, .. } =
-            *self;
+        let Self {
+            distance,
+            emission_time,
+            doppler,
+            emission_angle_deg,
+            rest_emission_angle_deg,
+            ..
+        } = *self;
         [emission_time, doppler, distance, emission_angle_deg, rest_emission_angle_deg]
     }
 }

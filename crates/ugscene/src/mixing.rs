@@ -31,8 +31,9 @@ pub fn separate_wires(scene: &mut Scene, rows: &[bool]) {
     let n_faces = scene.faces.len();
     let users: Vec<_> = scene.drawn().map(|drawn| drawn.contours).collect();
     let has = |vertex: VertexId| rows.get(vertex.index()).copied().unwrap_or_default();
-    let copies =
-        split_corners(scene, users.into_iter(), |user, vertex, _| has(vertex).then_some(user >= n_faces));
+    let copies = split_corners(scene, users.into_iter(), |user, vertex, _| {
+        has(vertex).then_some(user >= n_faces)
+    });
     let first = scene.vertices.len() - copies.len();
     scene.vertices[first..].iter_mut().for_each(|copy| copy.color = None);
 }
@@ -66,7 +67,8 @@ pub fn mixing_vertices(scene: &Scene) -> Vec<bool> {
         for corner in scene.face_corners(face) {
             let row = corner.index();
             let first = *first_colors[row].get_or_insert(face.color);
-            let is_mixed = || scene.vertices[row].color.is_none() && !looks_same(scene, first, face.color);
+            let is_mixed =
+                || scene.vertices[row].color.is_none() && !looks_same(scene, first, face.color);
             are_mixing[row] |= first != face.color && is_mixed();
         }
     }

@@ -11,7 +11,8 @@ pub fn corner_angle(contour: &[VertexId], idx: usize, positions: &[DVec3]) -> f6
     // Halved first: the difference of large coordinates may overflow.
     let half = |idx: usize| positions[contour[idx].index()] * 0.5;
     let (before, after) = (idx.checked_sub(1).unwrap_or(contour.len() - 1), idx + 1);
-    let (a, b) = (half(before) - half(idx), half(if after < contour.len() { after } else { 0 }) - half(idx));
+    let (a, b) =
+        (half(before) - half(idx), half(if after < contour.len() { after } else { 0 }) - half(idx));
     ugphysics::angle(a, b)
 }
 

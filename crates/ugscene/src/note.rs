@@ -48,16 +48,25 @@ impl fmt::Display for Note {
             ),
             Self::MixedColors(n) => {
                 let vertices = if *n == 1 { "vertex" } else { "vertices" };
-                write!(f, "colours are mixed at {n} {vertices} where faces of different colours meet")
+                write!(
+                    f,
+                    "colours are mixed at {n} {vertices} where faces of different colours meet"
+                )
             }
             Self::OutOfView { time, when: Some(when) } => {
                 write!(f, "nothing that moves is in the picture at time {time}; it is {when}")
             }
             Self::OutOfView { time, when: None } => {
-                write!(f, "nothing that moves is in the picture at time {time}, and no other time was found")
+                write!(
+                    f,
+                    "nothing that moves is in the picture at time {time}, and no other time was found"
+                )
             }
             Self::SpectraAtRest { color } => {
-                write!(f, "black bodies and spectra count with their colour at rest (colour `{color}`)")
+                write!(
+                    f,
+                    "black bodies and spectra count with their colour at rest (colour `{color}`)"
+                )
             }
         }
     }
@@ -101,6 +110,9 @@ impl BodyBoxes {
         if !self.seen(motion, &camera, size).ok()?.are_moving_out_of_view() {
             return None;
         }
-        Some(Note::OutOfView { time: motion.time, when: self.times_in_view(motion, &camera, size).ok()? })
+        Some(Note::OutOfView {
+            time: motion.time,
+            when: self.times_in_view(motion, &camera, size).ok()?,
+        })
     }
 }

@@ -98,7 +98,9 @@ pub fn require_seen_geometry(scene: &Scene) -> Result<(), StageError> {
 /// [`StageError::OtherEye`].
 pub fn require_eye(scene: &Scene, eye: DVec3) -> Result<(), StageError> {
     match scene.stage.seen_geometry() {
-        Some(seen) if seen.eye != eye => Err(StageError::OtherEye { made_for: seen.eye, asked: eye }),
+        Some(seen) if seen.eye != eye => {
+            Err(StageError::OtherEye { made_for: seen.eye, asked: eye })
+        }
         _ => Ok(()),
     }
 }
@@ -128,7 +130,9 @@ pub fn write_display_as_hues(scene: &mut Scene) {
         if let ColorValue::Rgb(rgb) = color.value {
             let Hsv { hue, saturation, value } = Hsv::from_rgb(rgb);
             let tint = match unit {
-                HueScale::Wavelengths if saturation > 0.0 => Tint::Wavelength(hue_to_wavelength(hue)),
+                HueScale::Wavelengths if saturation > 0.0 => {
+                    Tint::Wavelength(hue_to_wavelength(hue))
+                }
                 unit => Tint::new(hue, unit),
             };
             color.value = ColorValue::Hsv { value, tint, saturation, factor: 1.0 };

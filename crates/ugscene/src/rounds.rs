@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use crate::split::vertex_names;
 use crate::words::messages;
 use crate::{
-    Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
-    VertexId, rest_positions,
+    Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames,
+    Vertex, VertexId, rest_positions,
 };
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest
@@ -62,7 +62,8 @@ pub fn cut_rounds(
         Some((shape, n_segments(face.shape, sagitta(row, face, &shape)?)))
     };
     // Scenes have fewer than 2^32 faces.
-    let mut cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
+    let mut cuts: Vec<Option<(RoundShape, usize)>> =
+        scene.faces.iter().enumerate().map(cut).collect();
     if cuts.iter().all(Option::is_none) {
         return Ok(());
     }
@@ -72,7 +73,8 @@ pub fn cut_rounds(
         FaceShape::Tube => *n,
         FaceShape::Disc | FaceShape::Polygon => 1,
     };
-    let count = |cuts: &[Option<(RoundShape, usize)>]| cuts.iter().flatten().map(polygons).sum::<usize>();
+    let count =
+        |cuts: &[Option<(RoundShape, usize)>]| cuts.iter().flatten().map(polygons).sum::<usize>();
     let n_polygons = count(&cuts);
     if n_polygons > MOST_POLYGONS {
         let part = (MOST_POLYGONS as f64 / n_polygons as f64).sqrt();
@@ -132,7 +134,8 @@ pub fn cut_rounds_on_world_lines(scene: &mut Scene) -> Result<(), TooManyPolygon
     if !scene.has_rounds_on_world_lines() {
         return Ok(());
     }
-    let on_line: Vec<bool> = scene.bodies.ids().map(|body| scene.bodies.is_on_world_line(body)).collect();
+    let on_line: Vec<bool> =
+        scene.bodies.ids().map(|body| scene.bodies.is_on_world_line(body)).collect();
     cut_rounds(scene, |_, face, _| on_line[face.body.index()].then_some(FINE_SAGITTA))
 }
 
@@ -182,7 +185,8 @@ impl Cutter<'_> {
                 let rings: Vec<Vec<VertexId>> = (0..=n / 2)
                     .map(|row| {
                         let [z, radius] = circle(row, n);
-                        let ring = rim(z).map(|unit| DVec3::new(radius * unit.x, radius * unit.y, z));
+                        let ring =
+                            rim(z).map(|unit| DVec3::new(radius * unit.x, radius * unit.y, z));
                         // The rings of the poles are single vertices.
                         let len = if radius == 0.0 { 1 } else { n };
                         ring.take(len).map(|unit| self.vertex(unit, Some(unit))).collect()
@@ -191,8 +195,8 @@ impl Cutter<'_> {
                 rings.windows(2).for_each(|rings| self.band(&rings[1], &rings[0]));
             }
             FaceShape::Cylinder | FaceShape::Tube => {
-                let [foot, head] =
-                    [0.0, 1.0].map(|z| rim(z).map(|unit| self.vertex(unit, side(unit))).collect::<Vec<_>>());
+                let [foot, head] = [0.0, 1.0]
+                    .map(|z| rim(z).map(|unit| self.vertex(unit, side(unit))).collect::<Vec<_>>());
                 self.band(&foot, &head);
                 if self.round.shape == FaceShape::Cylinder {
                     // Ends have corners without normals at the same places.
@@ -250,7 +254,8 @@ impl Cutter<'_> {
     fn band(&mut self, below: &[VertexId], above: &[VertexId]) {
         for at in 0..self.n {
             let of = |ring: &[VertexId], at: usize| ring[at % ring.len()];
-            let mut corners = vec![of(below, at), of(below, at + 1), of(above, at + 1), of(above, at)];
+            let mut corners =
+                vec![of(below, at), of(below, at + 1), of(above, at + 1), of(above, at)];
             corners.dedup();
             self.polygon(corners.into_iter());
         }
@@ -264,6 +269,10 @@ impl Cutter<'_> {
         } else {
             contours.push_all([corners.collect::<Vec<_>>()])
         };
-        self.scene.faces.push(Face { contours: rows, shape: FaceShape::Polygon, ..self.face.clone() });
+        self.scene.faces.push(Face {
+            contours: rows,
+            shape: FaceShape::Polygon,
+            ..self.face.clone()
+        });
     }
 }

@@ -12,7 +12,8 @@ const SAME_PLACE: f64 = 1e-9;
 
 /// Weights of the three components of a normal and of the distance in the number by which planes
 /// are sorted. No plane of round numbers has the number 0, where the sign would be noise.
-const WEIGHTS: [f64; 4] = [0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561, 0.324_717_957_245];
+const WEIGHTS: [f64; 4] =
+    [0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561, 0.324_717_957_245];
 
 /// Difference of these numbers up to which planes are compared, and the width of the cells of a
 /// first selection: so narrow that of a million faces few share a cell by chance, so wide that few
@@ -39,7 +40,9 @@ pub fn shared_planes(scene: &Scene, rest: &[DVec3], frames: &RestFrames) -> Vec<
     if close.is_empty() {
         return Vec::new();
     }
-    close.sort_unstable_by(|&a, &b| numbers[a as usize].total_cmp(&numbers[b as usize]).then(a.cmp(&b)));
+    close.sort_unstable_by(|&a, &b| {
+        numbers[a as usize].total_cmp(&numbers[b as usize]).then(a.cmp(&b))
+    });
     let motions = motions(scene, frames);
     let mut planes = Vec::new();
     let motion = |row: u32| motions[scene.faces[row as usize].body.index()];
@@ -65,7 +68,9 @@ pub fn shared_planes(scene: &Scene, rest: &[DVec3], frames: &RestFrames) -> Vec<
             }
         }
         for (plane, rows) in groups.into_iter().filter(|(_, rows)| rows.len() > 1) {
-            let look = |row: u32| PlacedFace { scene, rest, face: &scene.faces[row as usize] }.look(&plane);
+            let look = |row: u32| {
+                PlacedFace { scene, rest, face: &scene.faces[row as usize] }.look(&plane)
+            };
             let first = look(rows[0]);
             if first.is_none() || rows[1..].iter().any(|&row| look(row) != first) {
                 planes.resize(scene.faces.len(), 0);
@@ -146,7 +151,9 @@ impl PlacedFace<'_> {
             let [a, b, c] = [a, b, c].map(|corner| self.rest[corner.index()]);
             ((b - a).cross(c - a), a)
         } else {
-            self.plane().map(|plane| (plane.normal, plane.distance * plane.normal)).unwrap_or_default()
+            self.plane()
+                .map(|plane| (plane.normal, plane.distance * plane.normal))
+                .unwrap_or_default()
         };
         let [x, y, z, w] = WEIGHTS;
         let sum = normal.dot(DVec3::new(x, y, z) + w / reach * point);
@@ -164,7 +171,8 @@ impl PlacedFace<'_> {
     fn is_in(&self, plane: &Plane) -> bool {
         self.scene.face_corners(self.face).iter().all(|corner| {
             let place = self.rest[corner.index()];
-            (place.dot(plane.normal) - plane.distance).abs() <= SAME_PLACE * place.abs().max_element()
+            (place.dot(plane.normal) - plane.distance).abs()
+                <= SAME_PLACE * place.abs().max_element()
         })
     }
 
@@ -173,7 +181,8 @@ impl PlacedFace<'_> {
     fn look(&self, plane: &Plane) -> Option<(Option<ColorId>, Option<ShadingId>, BodyId, bool)> {
         let Face { color, shading, body, .. } = *self.face;
         let corners = self.scene.face_corners(self.face);
-        let is_own = corners.iter().any(|corner| self.scene.vertices[corner.index()].color.is_some());
+        let is_own =
+            corners.iter().any(|corner| self.scene.vertices[corner.index()].color.is_some());
         let is_front = self.plane()?.normal.dot(plane.normal) > 0.0;
         (!is_own).then_some((color, shading, body, is_front))
     }

@@ -40,7 +40,11 @@ impl fmt::Display for TimesInView {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ends = [self.first, self.last].map(|end| end.unwrap_or(self.best));
         let size = (ends[1] - ends[0]).max(f64::MIN_POSITIVE);
-        let size = if self.first.is_some() && self.last.is_some() { size } else { self.best.abs().max(1e-3) };
+        let size = if self.first.is_some() && self.last.is_some() {
+            size
+        } else {
+            self.best.abs().max(1e-3)
+        };
         let decimals = (2.0 - libm::floor(libm::log10(size))).clamp(0.0, 12.0);
         let unit = libm::exp10(decimals);
         // Not −0.
@@ -91,7 +95,8 @@ impl BodyBoxes {
         size: [u32; 2],
     ) -> Result<Option<TimesInView>, MotionError> {
         let now = self.seen(motion, camera, size)?;
-        let Some(range) = now.time_scale().map(|scale| FARTHEST * scale).filter(|range| range.is_finite())
+        let Some(range) =
+            now.time_scale().map(|scale| FARTHEST * scale).filter(|range| range.is_finite())
         else {
             return Ok(None);
         };
@@ -104,10 +109,13 @@ impl BodyBoxes {
         moments.extend(after);
         let distance = |moment: &Moment| (moment.time - motion.time).abs();
         let in_view = (0..moments.len()).filter(|&row| moments[row].is_in_view);
-        let nearest = in_view.min_by(|&a, &b| distance(&moments[a]).total_cmp(&distance(&moments[b])));
+        let nearest =
+            in_view.min_by(|&a, &b| distance(&moments[a]).total_cmp(&distance(&moments[b])));
         let Some(row) = nearest else { return Ok(None) };
         let found = search.interval(&moments, row)?;
-        let end = |is_whole: bool, moment: Option<&Moment>| moment.filter(|_| !is_whole).map(|end| end.time);
+        let end = |is_whole: bool, moment: Option<&Moment>| {
+            moment.filter(|_| !is_whole).map(|end| end.time)
+        };
         Ok(Some(TimesInView {
             first: found.first.or_else(|| end(is_whole_before, moments.first())),
             last: found.last.or_else(|| end(is_whole_after, moments.last())),
@@ -166,8 +174,10 @@ impl Search<'_> {
     /// The interval in which bodies are in view around a moment at which they are.
     fn interval(&self, moments: &[Moment], row: usize) -> Result<TimesInView, MotionError> {
         let before = moments[..row].iter().rposition(|moment| !moment.is_in_view);
-        let after = moments[row..].iter().position(|moment| !moment.is_in_view).map(|count| row + count);
-        let end = |outside: usize, inside: usize| self.end(moments[outside].time, moments[inside].time);
+        let after =
+            moments[row..].iter().position(|moment| !moment.is_in_view).map(|count| row + count);
+        let end =
+            |outside: usize, inside: usize| self.end(moments[outside].time, moments[inside].time);
         let first = before.map(|before| end(before, before + 1)).transpose()?;
         let last = after.map(|after| end(after, after - 1)).transpose()?;
         let inside = &moments[before.map_or(0, |row| row + 1)..after.unwrap_or(moments.len())];

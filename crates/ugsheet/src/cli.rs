@@ -5,11 +5,12 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{
-    Format, Frame, Metadata, PictureLimits, ReadError, read_history, read_png, read_png_header, spelled_color,
+    Format, Frame, Metadata, PictureLimits, ReadError, read_history, read_png, read_png_header,
+    spelled_color,
 };
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, MAX_INPUT, PIXELS_PER_INCH, Side, ToolArgs, Words, finite, one_of,
-    sha256, whole,
+    CommonArgs, Context, Failure, Input, MAX_INPUT, PIXELS_PER_INCH, Side, ToolArgs, Words, finite,
+    one_of, sha256, whole,
 };
 
 use crate::film::{self, Caption, FilmKind, Footage, FrameNames, Joined};
@@ -220,12 +221,14 @@ impl Args {
     fn format(&self, file: Option<&Path>) -> Result<Format, Failure> {
         let Some(name) = self.format_name(file) else { return Ok(Format::Png) };
         picture_format(&name).ok_or_else(|| match FilmKind::from_name(&name) {
-            Some(_) => {
-                Failure::Usage(format!("`{name}` is a format of films, and the pictures are no films"))
-            }
+            Some(_) => Failure::Usage(format!(
+                "`{name}` is a format of films, and the pictures are no films"
+            )),
             None => {
                 let names = FORMATS.join(", ");
-                Failure::Usage(format!("`.{name}` is not one of the formats {names}; name one with -dt"))
+                Failure::Usage(format!(
+                    "`.{name}` is not one of the formats {names}; name one with -dt"
+                ))
             }
         })
     }
@@ -233,7 +236,8 @@ impl Args {
 
 /// The picture of an input, without its pixels. `path` is its file, `None` for standard input.
 fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
-    let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
+    let (size, history) =
+        read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
     let name = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
     let motion = Motion::recorded(&history);
     Ok(Picture { name: name.unwrap_or_default(), size, motion, history })
@@ -261,16 +265,21 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
         inputs.push(context.input_file(path)?);
     }
     let tile = |input: &Input| {
-        let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
+        let (size, history) =
+            read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
         Ok(Picture { name: input.name.clone(), size, motion: Motion::default(), history })
     };
-    let tiles = inputs.iter().map(tile).collect::<Result<Vec<_>, Error>>().map_err(Failure::failed)?;
+    let tiles =
+        inputs.iter().map(tile).collect::<Result<Vec<_>, Error>>().map_err(Failure::failed)?;
     let frame_of = |idx: usize| {
         // Each file is needed once.
         let input = Input { text: std::mem::take(&mut inputs[idx].text), ..inputs[idx].clone() };
-        read_png(&input.text, &limits).map(|(frame, _)| frame).map_err(|error| unreadable(&input, &error))
+        read_png(&input.text, &limits)
+            .map(|(frame, _)| frame)
+            .map_err(|error| unreadable(&input, &error))
     };
-    let (frame, history) = join(&tiles, frame_of).map_err(|error| Failure::failed(error.words()))?;
+    let (frame, history) =
+        join(&tiles, frame_of).map_err(|error| Failure::failed(error.words()))?;
     context.write(&Format::Png.encode(&frame, &history))
 }
 
@@ -321,8 +330,9 @@ fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut script = String::new();
     for Input { name, text } in &inputs {
         let recipes = recipes(&read_history(text).unwrap_or_default());
-        let recipes = recipes
-            .map_err(|why| Failure::failed(format!("the history of `{name}` must not be run: {why}")))?;
+        let recipes = recipes.map_err(|why| {
+            Failure::failed(format!("the history of `{name}` must not be run: {why}"))
+        })?;
         if recipes.is_empty() {
             return Err(Failure::failed(format!(
                 "`{name}` has no history that can be run: another program drew it, or its texts were removed"
@@ -334,7 +344,9 @@ fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
         }
         if recipes.len() > 1 {
             let n = recipes.len();
-            context.note(&format!("`{name}` has {n} pipes: send the output of each to a file of its own"));
+            context.note(&format!(
+                "`{name}` has {n} pipes: send the output of each to a file of its own"
+            ));
         }
     }
     context.write_text(&script)
@@ -343,11 +355,14 @@ fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
 /// Says what a pipe needs to give the same picture.
 fn inspect(recipe: &Recipe, context: &Context) {
     match &recipe.scene {
-        None => context.note("the scene was read from standard input: run the pipe with the same input"),
+        None => {
+            context.note("the scene was read from standard input: run the pipe with the same input")
+        }
         Some(scene) => match context.read_here(Path::new(scene), MAX_INPUT) {
             Ok(text) if sha256(&text) == recipe.sha256 => {}
             Ok(_) => context.warn(&format!("`{scene}` has changed since the picture was drawn")),
-            Err(_) => context.note(&format!("`{scene}` is not in this folder: run the pipe in its folder")),
+            Err(_) => context
+                .note(&format!("`{scene}` is not in this folder: run the pipe in its folder")),
         },
     }
     let version = env!("CARGO_PKG_VERSION");
@@ -356,7 +371,8 @@ fn inspect(recipe: &Recipe, context: &Context) {
         context.note(&format!("drawn by {versions}; other versions may draw another picture"));
     }
     if let Some(option) = recipe.permission() {
-        context.warn(&format!("the pipe has the option {option}: run it only if you trust the scene"));
+        context
+            .warn(&format!("the pipe has the option {option}: run it only if you trust the scene"));
     }
 }
 
@@ -410,7 +426,8 @@ fn print_sheet(
         return Err(Failure::usage(NO_TERMINAL));
     }
     let stated: Vec<f64> = pictures.iter().filter_map(|picture| picture.history.per_inch).collect();
-    let per_inch = stated.first().copied().filter(|first| stated.iter().all(|other| other == first));
+    let per_inch =
+        stated.first().copied().filter(|first| stated.iter().all(|other| other == first));
     if per_inch.is_none() && !stated.is_empty() && args.sz.is_none() {
         context.note(
             "the pictures have different resolutions, so the sheet states none: give its width, -sz 17.8cm",
@@ -423,7 +440,9 @@ fn print_sheet(
     let limits = args.limits();
     let frame_of = |idx: usize| {
         let input: &Input = &inputs[idx];
-        read_png(&input.text, &limits).map(|(frame, _)| frame).map_err(|error| unreadable(input, &error))
+        read_png(&input.text, &limits)
+            .map(|(frame, _)| frame)
+            .map_err(|error| unreadable(input, &error))
     };
     let frame = sheet.draw(frame_of).map_err(|error| refused(&error))?;
     let (width, height) = (frame.width(), frame.height());
@@ -450,8 +469,8 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
     let kind = name.as_deref().and_then(FilmKind::from_name);
     let (config, per_inch) = args.config(None)?;
     let pictures: Vec<Picture> = films.iter().map(Footage::picture).collect();
-    let sheet =
-        Sheet::new(&Config { is_even: true, ..config }, &pictures).map_err(|error| refused(&error))?;
+    let sheet = Sheet::new(&Config { is_even: true, ..config }, &pictures)
+        .map_err(|error| refused(&error))?;
     tell_scaled(&sheet, context);
     let joined = Joined::new(films, sheet, args.fps)?;
     joined.tell_held(context);
@@ -466,7 +485,9 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
     }
     if let (Some(_), Some(kind)) = (&pattern, kind) {
         let name = kind.name();
-        return Err(Failure::Usage(format!("{name} is a whole film, not a frame: give a name without %d")));
+        return Err(Failure::Usage(format!(
+            "{name} is a whole film, not a frame: give a name without %d"
+        )));
     }
     let Some(kind) = kind else {
         return Err(Failure::usage(

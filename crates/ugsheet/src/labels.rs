@@ -76,11 +76,15 @@ fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
 /// The times of pictures, with three digits, or as many more as distinguish them.
 fn times(pictures: &[Picture]) -> Vec<Option<String>> {
     let with = |digits: usize| -> Vec<Option<String>> {
-        pictures.iter().map(|picture| picture.motion.time.map(|time| significant(time, digits))).collect()
+        pictures
+            .iter()
+            .map(|picture| picture.motion.time.map(|time| significant(time, digits)))
+            .collect()
     };
     let are_distinct = |texts: &Vec<Option<String>>| {
-        let differ =
-            |[a, b]: [usize; 2]| pictures[a].motion.time == pictures[b].motion.time || texts[a] != texts[b];
+        let differ = |[a, b]: [usize; 2]| {
+            pictures[a].motion.time == pictures[b].motion.time || texts[a] != texts[b]
+        };
         (1..texts.len()).all(|idx| (0..idx).all(|other| differ([other, idx])))
     };
     (3..6).map(with).find(are_distinct).unwrap_or_else(|| with(6))
@@ -102,7 +106,8 @@ pub struct Motion {
 impl Motion {
     /// The options in the history of a picture that set them.
     pub fn recorded(history: &Metadata) -> Self {
-        const OPTIONS: [&str; 6] = ["-vel", "--velocity", "-cv", "--camera-velocity", "-ti", "--time"];
+        const OPTIONS: [&str; 6] =
+            ["-vel", "--velocity", "-cv", "--camera-velocity", "-ti", "--time"];
         let lines = history.comment.lines().filter(|line| !shell_words::is_recipe(line));
         let lines = lines.rev().map(shell_words::split);
         let mut with_options =
@@ -114,7 +119,8 @@ impl Motion {
                 words.get(at + 1..at + 1 + n)?.iter().map(|word| word.parse().ok()).collect();
             numbers
         };
-        let beta = numbers(["-vel", "--velocity"], 3).or_else(|| numbers(["-cv", "--camera-velocity"], 3));
+        let beta =
+            numbers(["-vel", "--velocity"], 3).or_else(|| numbers(["-cv", "--camera-velocity"], 3));
         Self {
             velocity: beta.and_then(|beta| Velocity::from_beta(DVec3::from_slice(&beta)).ok()),
             time: numbers(["-ti", "--time"], 1).map(|time| time[0]),
@@ -128,9 +134,17 @@ mod tests {
 
     fn texts(labels: &Labels, comments: &[&str]) -> Vec<String> {
         let picture = |(idx, comment): (usize, &&str)| {
-            let history =
-                Metadata { software: String::new(), comment: (*comment).to_owned(), ..Metadata::default() };
-            Picture { name: format!("n{idx}"), size: [1; 2], motion: Motion::recorded(&history), history }
+            let history = Metadata {
+                software: String::new(),
+                comment: (*comment).to_owned(),
+                ..Metadata::default()
+            };
+            Picture {
+                name: format!("n{idx}"),
+                size: [1; 2],
+                motion: Motion::recorded(&history),
+                history,
+            }
         };
         labels.texts(&comments.iter().enumerate().map(picture).collect::<Vec<_>>())
     }
@@ -139,8 +153,14 @@ mod tests {
     fn labels_show_what_differs() {
         let rows: [(&[&str], &[&str]); 10] = [
             (&["uglorentz", "uglorentz -vel .9 0 0 -in"], &["at rest", "β = 0.9"]),
-            (&["uglorentz -vel 0 -.3 .4", "uglorentz -cv .999 0 0\nugdoppler"], &["β = 0.5", "β = 0.999"]),
-            (&["uglorentz -vel .9 0 0 -ti -7", "uglorentz -vel .9 0 0 -ti 12"], &["t = −7", "t = 12"]),
+            (
+                &["uglorentz -vel 0 -.3 .4", "uglorentz -cv .999 0 0\nugdoppler"],
+                &["β = 0.5", "β = 0.999"],
+            ),
+            (
+                &["uglorentz -vel .9 0 0 -ti -7", "uglorentz -vel .9 0 0 -ti 12"],
+                &["t = −7", "t = 12"],
+            ),
             (&["uglorentz -ti -5.55102", "uglorentz -ti 1.23456"], &["t = −5.55", "t = 1.23"]),
             (&["uglorentz -ti 5.55102", "uglorentz -ti 5.55201"], &["t = 5.551", "t = 5.552"]),
             (
@@ -173,8 +193,11 @@ mod tests {
             "uglorentz -vel a b c",
             "uglorentz '",
         ] {
-            let history =
-                Metadata { software: String::new(), comment: line.to_owned(), ..Metadata::default() };
+            let history = Metadata {
+                software: String::new(),
+                comment: line.to_owned(),
+                ..Metadata::default()
+            };
             assert_eq!(Motion::recorded(&history), Motion::default(), "{line}");
         }
     }

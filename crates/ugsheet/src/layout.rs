@@ -59,7 +59,8 @@ impl Layout {
             Some((width, whole)) => [width, whole.unwrap_or(height)],
             None => [width, height],
         };
-        let sides = [width, height].map(|side| if config.is_even { side.next_multiple_of(2) } else { side });
+        let sides = [width, height]
+            .map(|side| if config.is_even { side.next_multiple_of(2) } else { side });
         if u64::from(sides[0]) * u64::from(sides[1]) > MAX_PIXELS {
             return Err(Error::Size);
         }
@@ -75,16 +76,23 @@ impl Layout {
         size: [u32; 2],
     ) -> Result<Self, Error> {
         // The width does not depend on texts, whose layout takes long.
-        let bare = Config { letters: false, title: String::new(), caption: String::new(), ..config.clone() };
+        let bare = Config {
+            letters: false,
+            title: String::new(),
+            caption: String::new(),
+            ..config.clone()
+        };
         let blank = vec![String::new(); pictures.len()];
         let widest = pictures.iter().map(|picture| picture.size[0]).max().unwrap_or(1);
         // A row with this picture alone fills the sheet.
         let most = f64::from(size[0]) / f64::from(widest);
         let mut scale = largest(32, most, |scale| {
-            Self::scaled(&bare, pictures, &blank, scale).is_ok_and(|layout| layout.size[0] <= size[0])
+            Self::scaled(&bare, pictures, &blank, scale)
+                .is_ok_and(|layout| layout.size[0] <= size[0])
         });
         let is_low = |scale: f64| {
-            Self::scaled(config, pictures, labels, scale).is_ok_and(|layout| layout.size[1] <= size[1])
+            Self::scaled(config, pictures, labels, scale)
+                .is_ok_and(|layout| layout.size[1] <= size[1])
         };
         if size[1] < u32::MAX && !is_low(scale) {
             scale = largest(16, scale, is_low);
@@ -97,18 +105,26 @@ impl Layout {
     }
 
     /// The sheet with its pictures scaled by a factor.
-    fn scaled(config: &Config, pictures: &[Picture], labels: &[String], scale: f64) -> Result<Self, Error> {
+    fn scaled(
+        config: &Config,
+        pictures: &[Picture],
+        labels: &[String],
+        scale: f64,
+    ) -> Result<Self, Error> {
         let scaled = |side: u32| ((f64::from(side) * scale).round() as u32).max(1);
-        let sizes: Vec<[u32; 2]> = pictures.iter().map(|picture| picture.size.map(scaled)).collect();
+        let sizes: Vec<[u32; 2]> =
+            pictures.iter().map(|picture| picture.size.map(scaled)).collect();
         let text = config.text_size.unwrap_or_else(|| text_size(&sizes));
         let gap = (0.9 * text).round() as u32;
         let [gap, margin] = config.gap.unwrap_or([gap; 2]);
         let n = sizes.len();
-        let n_columns = config
-            .columns
-            .map_or_else(|| n.isqrt() + usize::from(n.isqrt().pow(2) < n), |columns| columns as usize);
+        let n_columns = config.columns.map_or_else(
+            || n.isqrt() + usize::from(n.isqrt().pow(2) < n),
+            |columns| columns as usize,
+        );
         let n_columns = n_columns.clamp(1, n);
-        let widest = |column: usize| sizes.iter().skip(column).step_by(n_columns).map(|size| size[0]).max();
+        let widest =
+            |column: usize| sizes.iter().skip(column).step_by(n_columns).map(|size| size[0]).max();
         let widths: Vec<u32> = (0..n_columns).map(|column| widest(column).unwrap_or(0)).collect();
         let inner: u64 = widths.iter().map(|&width| u64::from(width)).sum::<u64>()
             + (n_columns as u64 - 1) * u64::from(gap);
@@ -133,7 +149,8 @@ impl Layout {
                 let number = row * n_columns + idx;
                 let label = with_letter(config.letters, number, &labels[number]);
                 let top = page.row.checked_add(height).ok_or(Error::Size)?;
-                label_rows = label_rows.max(page.centered(&label, text, [column, top], widths[idx])?);
+                label_rows =
+                    label_rows.max(page.centered(&label, text, [column, top], widths[idx])?);
                 column += widths[idx] + gap;
             }
             page.advance(height)?;
@@ -224,7 +241,13 @@ impl Page {
 
     /// Adds a paragraph of centred lines within `width`, below `top`. Returns its height in pixel
     /// rows.
-    fn centered(&mut self, text: &str, size: f64, [left, top]: [u32; 2], width: u32) -> Result<u32, Error> {
+    fn centered(
+        &mut self,
+        text: &str,
+        size: f64,
+        [left, top]: [u32; 2],
+        width: u32,
+    ) -> Result<u32, Error> {
         let lines = lines(text, size, f64::from(width))?;
         if lines.is_empty() {
             return Ok(0);
@@ -281,7 +304,8 @@ fn paragraph(n_lines: usize, size: f64) -> f64 {
 }
 
 fn lines(text: &str, size: f64, width: f64) -> Result<Vec<Line>, Error> {
-    wrapped(text, size, width).map_err(|missing| Error::Text { text: text.trim().to_owned(), missing })
+    wrapped(text, size, width)
+        .map_err(|missing| Error::Text { text: text.trim().to_owned(), missing })
 }
 
 #[cfg(test)]

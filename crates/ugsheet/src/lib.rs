@@ -145,7 +145,10 @@ impl Sheet {
     ///
     /// # Errors
     /// The sheet is too large for the memory, or a picture cannot be read or has another size.
-    pub fn draw(&self, mut frame_of: impl FnMut(usize) -> Result<Frame, Error>) -> Result<Frame, Error> {
+    pub fn draw(
+        &self,
+        mut frame_of: impl FnMut(usize) -> Result<Frame, Error>,
+    ) -> Result<Frame, Error> {
         let mut frame = blank(self.layout.size)?;
         let [red, green, blue] = self.background;
         frame.pixels_mut().fill([red, green, blue, 255]);
@@ -153,7 +156,10 @@ impl Sheet {
         for (idx, (picture, place)) in self.pictures.iter().zip(&self.layout.pictures).enumerate() {
             let pixels = frame_of(idx)?;
             if [pixels.width(), pixels.height()] != picture.size {
-                return Err(Error::Picture(format!("`{}` has changed while it was read", picture.name)));
+                return Err(Error::Picture(format!(
+                    "`{}` has changed while it was read",
+                    picture.name
+                )));
             }
             let pixels = if place.size == picture.size {
                 pixels
@@ -212,6 +218,8 @@ fn copy(
 /// A pixel of alpha `part` composited over an opaque one, in linear light.
 fn over(pixel: [u8; 4], part: f64, under: [u8; 4], quantizer: &ugimage::Quantizer) -> [u8; 4] {
     let light = |level: u8| ugphysics::srgb_decode(f64::from(level) / 255.0);
-    let mixed = |i: usize| quantizer.level((part * light(pixel[i]) + (1.0 - part) * light(under[i])) as f32);
+    let mixed = |i: usize| {
+        quantizer.level((part * light(pixel[i]) + (1.0 - part) * light(under[i])) as f32)
+    };
     [mixed(0), mixed(1), mixed(2), 255]
 }

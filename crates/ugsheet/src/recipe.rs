@@ -44,7 +44,8 @@ impl Recipe {
             }
         }
         commands.iter().try_for_each(|command| check(command))?;
-        Self::from_parts(commands, &comment).ok_or_else(|| "its hash or its versions are damaged".to_owned())
+        Self::from_parts(commands, &comment)
+            .ok_or_else(|| "its hash or its versions are damaged".to_owned())
     }
 
     fn from_parts(commands: Vec<Vec<String>>, comment: &str) -> Option<Self> {
@@ -63,8 +64,9 @@ impl Recipe {
 
     /// The pipe as a script: a comment with the origin, and a line with the commands.
     pub fn script(&self) -> String {
-        let quoted =
-            |command: &Vec<String>| command.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ");
+        let quoted = |command: &Vec<String>| {
+            command.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
+        };
         let commands: Vec<String> = self.commands.iter().map(quoted).collect();
         let scene = self.scene.as_deref().map_or_else(|| "standard input".to_owned(), shell_word);
         format!("# {scene}, {HASH}{}; {}\n{}\n", self.sha256, self.versions, commands.join(" | "))
@@ -73,7 +75,9 @@ impl Recipe {
     /// The first option that gives a scene permissions.
     pub fn permission(&self) -> Option<&str> {
         let words = self.commands.iter().flatten();
-        words.map(String::as_str).find(|word| PERMISSIONS.contains(&option(word).unwrap_or_default()))
+        words
+            .map(String::as_str)
+            .find(|word| PERMISSIONS.contains(&option(word).unwrap_or_default()))
     }
 }
 
@@ -113,7 +117,8 @@ mod tests {
             let history = format!("uglorentz -vel .9 0 0\n{}", line(pipe, name));
             let recipes = recipes(&history).unwrap();
             let hash = "0a".repeat(32);
-            let expected = format!("# {scene}, SHA-256 {hash}; uglorentz 0.1.0, ugrainbow 0.1.0\n{pipe}\n");
+            let expected =
+                format!("# {scene}, SHA-256 {hash}; uglorentz 0.1.0, ugrainbow 0.1.0\n{pipe}\n");
             assert_eq!(recipes.iter().map(Recipe::script).collect::<Vec<_>>(), [expected]);
         };
         check(
@@ -134,8 +139,13 @@ mod tests {
         assert_eq!(refusal("ugrainbow |"), "it runs ``");
         assert_eq!(refusal("./ugrainbow"), "it runs `./ugrainbow`");
         assert_eq!(refusal("ugrainbow; rm a"), "it runs `ugrainbow;`");
-        for option in ["-fo", "--fo", "--fo=a", "-output", "-fm", "-at", "-o", "'-'fo", "--attributes"] {
-            assert!(refusal(&format!("ugrainbow {option} a")).contains("writes a file"), "{option}");
+        for option in
+            ["-fo", "--fo", "--fo=a", "-output", "-fm", "-at", "-o", "'-'fo", "--attributes"]
+        {
+            assert!(
+                refusal(&format!("ugrainbow {option} a")).contains("writes a file"),
+                "{option}"
+            );
         }
         let script = |pipe: &str| recipes(&line(pipe, "a.ug")).unwrap()[0].script();
         assert!(
@@ -149,7 +159,8 @@ mod tests {
 
     #[test]
     fn permissions_are_found() {
-        let found = |pipe: &str| recipes(&line(pipe, "a.ug")).unwrap()[0].permission().map(str::to_owned);
+        let found =
+            |pipe: &str| recipes(&line(pipe, "a.ug")).unwrap()[0].permission().map(str::to_owned);
         assert_eq!(found("uglorentz a.ug --allow-execute"), Some("--allow-execute".to_owned()));
         assert_eq!(found("ugrainbow a.ug -cap allow-execute"), None);
     }

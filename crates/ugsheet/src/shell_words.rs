@@ -67,7 +67,8 @@ fn unescape<'t>(text: &'t str, word: &mut Vec<u8>) -> &'t str {
         match c {
             '\'' => return rest,
             '\\' => {
-                let n_digits = rest.bytes().take(3).take_while(|byte| matches!(byte, b'0'..=b'7')).count();
+                let n_digits =
+                    rest.bytes().take(3).take_while(|byte| matches!(byte, b'0'..=b'7')).count();
                 let Some(escaped) = rest.chars().next() else { break };
                 match (n_digits, escaped) {
                     (0, 't') => word.push(b'\t'),
@@ -103,7 +104,10 @@ mod tests {
     fn quoted_words_are_not_split() {
         assert_eq!(split("a -cap 'b  -vel' '' c"), ["a", "-cap", "b  -vel", "", "c"]);
         assert_eq!(split(r"'it'\''s' x"), ["it's", "x"]);
-        assert_eq!(split(r"$'a\tb\n\175\'' $'\342\200\2561'2 $a"), ["a\tb\n}'", "\u{202e}12", "$a"]);
+        assert_eq!(
+            split(r"$'a\tb\n\175\'' $'\342\200\2561'2 $a"),
+            ["a\tb\n}'", "\u{202e}12", "$a"]
+        );
         assert_eq!(split(r"$'a\"), ["a"]);
         assert_eq!(split(r"a\"), ["a\\"]);
     }
@@ -111,7 +115,8 @@ mod tests {
     #[test]
     fn pipes_and_comments_are_found_outside_quotes() {
         let word = |word: &str| Token::Word(word.into());
-        let expected = [word("a"), word("|#"), Token::Pipe, word("b#c"), Token::Comment("d 'e' | f".into())];
+        let expected =
+            [word("a"), word("|#"), Token::Pipe, word("b#c"), Token::Comment("d 'e' | f".into())];
         assert_eq!(tokens("a '|#' | b#c # d 'e' | f"), expected);
         assert_eq!(tokens(r"a\|b|"), [word("a|b"), Token::Pipe]);
     }

@@ -31,7 +31,10 @@ pub fn join(
     let mut places: Vec<[u32; 4]> = Vec::new();
     for tile in tiles {
         if whole_history(tile)? != history {
-            return Err(refused(tile, &format!("not drawn by the command that drew `{}`", first.name)));
+            return Err(refused(
+                tile,
+                &format!("not drawn by the command that drew `{}`", first.name),
+            ));
         }
         let place = place(tile)?;
         if !is_inside(place, size) {
@@ -45,7 +48,9 @@ pub fn join(
     let area = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
     let (covered, all) = (places.iter().map(|&[_, _, w, h]| area([w, h])).sum::<u64>(), area(size));
     if covered != all {
-        let text = format!("the tiles have {covered} of the {all} pixels of the picture: draw those missing");
+        let text = format!(
+            "the tiles have {covered} of the {all} pixels of the picture: draw those missing"
+        );
         return Err(Error::Picture(text));
     }
     if all > crate::error::MAX_PIXELS {
@@ -79,7 +84,10 @@ fn whole_history(tile: &Picture) -> Result<Metadata, Error> {
             before.matches('\'').count() % 2 == 0 && (after.is_empty() || after.starts_with(' '))
         };
         let found = line.match_indices(&option).map(|(at, _)| at).find(is_option);
-        found.map_or_else(|| line.to_owned(), |at| line[..at].to_owned() + &line[at + option.len()..])
+        found.map_or_else(
+            || line.to_owned(),
+            |at| line[..at].to_owned() + &line[at + option.len()..],
+        )
     };
     let lines: Vec<String> = tile.history.comment.lines().map(without).collect();
     let panorama = tile.history.panorama.map(|area| PanoramaArea { corner: [0, 0], ..area });
@@ -171,7 +179,9 @@ mod tests {
         let other = tile("ug -sz 4 1 --crop 1 0 3 1 -va 5", [3, 1]);
         assert_eq!(error(&[place(0, 1), other]), "`t`: not drawn by the command that drew `t`");
         assert!(error(&[tile("ug -sz 4 1", [4, 1])]).contains("which part of a picture it is"));
-        assert!(error(&[tile("ug -sz 4 1 --crop 0 0 4 1", [3, 1])]).contains("which part of a picture"));
+        assert!(
+            error(&[tile("ug -sz 4 1 --crop 0 0 4 1", [3, 1])]).contains("which part of a picture")
+        );
         assert!(error(&[tile("ug --crop 0 0 4 1", [4, 1])]).contains("size of the whole picture"));
     }
 }

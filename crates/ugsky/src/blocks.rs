@@ -110,7 +110,8 @@ impl Column {
                         idx * COLUMNS..idx * COLUMNS + WIDTH,
                     );
                 }
-                self.is_opaque &= fill(&mut self.texels[place], sky, level, row as usize, idx * COLUMNS);
+                self.is_opaque &=
+                    fill(&mut self.texels[place], sky, level, row as usize, idx * COLUMNS);
             }
         }
         self.held.1 = joined(&self.held.1, &rows);
@@ -148,7 +149,13 @@ fn key(level: u32, row: u32, idx: usize) -> u64 {
 
 /// Decodes the texels of a row from a column on; true if all are opaque. Beyond the end of the row
 /// nothing is changed, because no window reaches there.
-fn fill(Block(planes): &mut Block, sky: &Panorama, level: usize, row: usize, column: usize) -> bool {
+fn fill(
+    Block(planes): &mut Block,
+    sky: &Panorama,
+    level: usize,
+    row: usize,
+    column: usize,
+) -> bool {
     let end = sky.ladder[sky.grids[level].rows[row].ladder].n.min(column + WIDTH);
     let (mut at, mut is_opaque) = (0, true);
     sky.pyramid.for_each(level, row, column..end, |texels| {

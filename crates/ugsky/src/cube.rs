@@ -39,7 +39,9 @@ impl CubeMap {
         for face in faces {
             let before = texels.len();
             match face {
-                Texels::Srgb(face) => texels.extend(face.into_iter().map(|texel| decoder.light(texel))),
+                Texels::Srgb(face) => {
+                    texels.extend(face.into_iter().map(|texel| decoder.light(texel)))
+                }
                 Texels::Light(mut face) => {
                     face.iter_mut().for_each(premultiply);
                     texels.append(&mut face);
@@ -61,14 +63,18 @@ impl CubeMap {
         let [width, height] = [4 * self.side, 2 * self.side];
         let mut texels = vec![[0.0; 4]; width as usize * height as usize];
         texels.par_chunks_mut(width as usize).enumerate().for_each(|(row, texels)| {
-            let (sin_lat, cos_lat) = libm::sincos(PI * (0.5 - (row as f64 + 0.5) / f64::from(height)));
+            let (sin_lat, cos_lat) =
+                libm::sincos(PI * (0.5 - (row as f64 + 0.5) / f64::from(height)));
             for (column, texel) in texels.iter_mut().enumerate() {
                 let (sin_long, cos_long) =
                     libm::sincos(TAU * ((column as f64 + 0.5) / f64::from(width) - 0.5));
                 let [red, green, blue, alpha] =
                     self.light(DVec3::new(cos_lat * sin_long, cos_lat * cos_long, sin_lat));
-                *texel =
-                    if alpha > 0.0 { [red / alpha, green / alpha, blue / alpha, alpha] } else { [0.0; 4] };
+                *texel = if alpha > 0.0 {
+                    [red / alpha, green / alpha, blue / alpha, alpha]
+                } else {
+                    [0.0; 4]
+                };
             }
         });
         Panorama::new([width, height], Texels::Light(texels), Extent::FULL)
@@ -117,5 +123,10 @@ impl CubeMap {
 /// Weights of the texels at −1, 0, 1 and 2.
 fn catmull_rom(t: f64) -> [f64; 4] {
     let (t2, t3) = (t * t, t * t * t);
-    [-0.5 * t + t2 - 0.5 * t3, 1.0 - 2.5 * t2 + 1.5 * t3, 0.5 * t + 2.0 * t2 - 1.5 * t3, -0.5 * t2 + 0.5 * t3]
+    [
+        -0.5 * t + t2 - 0.5 * t3,
+        1.0 - 2.5 * t2 + 1.5 * t3,
+        0.5 * t + 2.0 * t2 - 1.5 * t3,
+        -0.5 * t2 + 0.5 * t3,
+    ]
 }

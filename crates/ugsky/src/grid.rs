@@ -144,7 +144,8 @@ fn columns(n: usize, extent: &Extent) -> Columns {
     let step = extent.width() / n as f64;
     let pad = if extent.is_closed() { 0 } else { PAD };
     let at = |idx: usize| {
-        let (sin, cos) = libm::sincos(extent.longitudes[0] + step * (idx as f64 - pad as f64 + 0.5));
+        let (sin, cos) =
+            libm::sincos(extent.longitudes[0] + step * (idx as f64 - pad as f64 + 0.5));
         (cos as f32, sin as f32)
     };
     let (cos, sin) = (0..n + 2 * pad + CHUNK).map(at).unzip();
@@ -169,8 +170,11 @@ fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Gri
     let rows = (0..n_rows).map(|idx| {
         let edges = [idx as f64, (idx + 1) as f64]
             .map(|edge| (extent.latitudes[1] - step * edge).clamp(-FRAC_PI_2, FRAC_PI_2));
-        let widest =
-            if edges[0] * edges[1] <= 0.0 { 1.0 } else { libm::cos(edges[0].abs().min(edges[1].abs())) };
+        let widest = if edges[0] * edges[1] <= 0.0 {
+            1.0
+        } else {
+            libm::cos(edges[0].abs().min(edges[1].abs()))
+        };
         let fits = |columns: &Columns| widest / columns.per_radian <= equator * (1.0 + 1e-12);
         let reduced = ladder[level..].iter().take_while(|columns| fits(columns)).count();
         let row_ladder = level + reduced.max(1) - 1;

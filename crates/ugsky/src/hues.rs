@@ -52,7 +52,8 @@ impl Hues {
             Brightness::None => one,
         };
         // The factor of display-encoded values.
-        let (gain, of_light) = if law.acts_on_light() { (one, Some(factor)) } else { (factor, None) };
+        let (gain, of_light) =
+            if law.acts_on_light() { (one, Some(factor)) } else { (factor, None) };
 
         // A colour is a sum of white and of a pure hue.
         let value = red.max(green).max(blue);
@@ -148,7 +149,8 @@ struct Table {
 impl Table {
     fn new([first, last]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
         let step = (last - first) / CELLS as f64;
-        let points = Box::new(std::array::from_fn(|idx| function(first + step * idx as f64) as f32));
+        let points =
+            Box::new(std::array::from_fn(|idx| function(first + step * idx as f64) as f32));
         Self { first: first as f32, per_unit: (1.0 / step) as f32, points }
     }
 

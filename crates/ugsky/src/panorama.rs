@@ -103,14 +103,16 @@ impl Panorama {
         if !extent.is_valid() {
             return Err(PanoramaError::Extent);
         }
-        let coarsest = (extent.width() / f64::from(size[0])).max(extent.height() / f64::from(size[1]));
+        let coarsest =
+            (extent.width() / f64::from(size[0])).max(extent.height() / f64::from(size[1]));
         if coarsest > COARSEST {
             return Err(PanoramaError::Coarse);
         }
         let ladder = ladder(size[0], &extent);
         let grids = grids(size, &extent, &ladder);
         let shape = |row: &Row| (ladder[row.ladder].n, row.area);
-        let shapes: Vec<Vec<_>> = grids.iter().map(|grid| grid.rows.iter().map(shape).collect()).collect();
+        let shapes: Vec<Vec<_>> =
+            grids.iter().map(|grid| grid.rows.iter().map(shape).collect()).collect();
         let pyramid = Pyramid::new(texels, size[0] as usize, extent.is_closed(), &shapes);
         Ok(Self { extent, size, pyramid, ladder, grids })
     }

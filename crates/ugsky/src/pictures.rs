@@ -11,8 +11,10 @@ pub type DecodedPicture = ([u32; 2], Texels);
 
 /// The places of the sides in a cross of four squares across, and in one of three across, whose
 /// back is upside down: column and row.
-const CROSSES: [[[usize; 2]; 6]; 2] =
-    [[[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [3, 1]], [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [1, 3]]];
+const CROSSES: [[[usize; 2]; 6]; 2] = [
+    [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [3, 1]],
+    [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [1, 3]],
+];
 
 impl Panorama {
     /// A panorama of pictures with an arrangement of directions. `extent`: the angles that an
@@ -57,7 +59,11 @@ fn sides(pictures: Vec<DecodedPicture>) -> Result<CubeMap, PanoramaError> {
 }
 
 /// A cube of a strip or a cross.
-fn unfolded(size: [u32; 2], texels: &Texels, arrangement: Arrangement) -> Result<CubeMap, PanoramaError> {
+fn unfolded(
+    size: [u32; 2],
+    texels: &Texels,
+    arrangement: Arrangement,
+) -> Result<CubeMap, PanoramaError> {
     let [width, height] = size;
     let (across, down) = match arrangement {
         Arrangement::Strip => (6, 1),
@@ -84,7 +90,13 @@ fn unfolded(size: [u32; 2], texels: &Texels, arrangement: Arrangement) -> Result
 }
 
 /// A square of a picture of squares.
-fn square<T: Copy>(texels: &[T], width: u32, side: u32, place: [usize; 2], is_turned: bool) -> Vec<T> {
+fn square<T: Copy>(
+    texels: &[T],
+    width: u32,
+    side: u32,
+    place: [usize; 2],
+    is_turned: bool,
+) -> Vec<T> {
     let (width, side) = (width as usize, side as usize);
     let row = |row: usize| {
         let start = (place[1] * side + row) * width + place[0] * side;

@@ -50,7 +50,12 @@ pub(crate) struct Pyramid {
 impl Pyramid {
     /// `width`: texels per row of `texels`. `levels`: for each level and row, the number of texels
     /// and the weight of one texel in means; level 0 has the rows of `texels`.
-    pub fn new(mut texels: Texels, width: usize, is_closed: bool, levels: &[Vec<(usize, f32)>]) -> Self {
+    pub fn new(
+        mut texels: Texels,
+        width: usize,
+        is_closed: bool,
+        levels: &[Vec<(usize, f32)>],
+    ) -> Self {
         if let Texels::Light(texels) = &mut texels {
             texels.par_iter_mut().for_each(premultiply);
         }
@@ -111,8 +116,12 @@ impl Pyramid {
         while done < length {
             let first = (start + done) % n;
             let part = (length - done).min(n - first);
-            is_opaque &=
-                self.compute(level, row, first, sums.each_mut().map(|sum| &mut sum[done..done + part]));
+            is_opaque &= self.compute(
+                level,
+                row,
+                first,
+                sums.each_mut().map(|sum| &mut sum[done..done + part]),
+            );
             done += part;
             if !self.is_closed {
                 break;
@@ -153,7 +162,8 @@ impl Pyramid {
         let finer = &self.rows[level - 1];
         let parts = overlaps(finer.len(), self.rows[level].len(), row);
         // Relative to the weight of the whole row.
-        let whole = |(row, part): (usize, f64)| part * f64::from(finer[row].area) * finer[row].n as f64;
+        let whole =
+            |(row, part): (usize, f64)| part * f64::from(finer[row].area) * finer[row].n as f64;
         let total: f64 = parts.clone().map(whole).sum();
         for (row, part) in parts {
             add(Some(row), finer[row].n, (whole((row, part)) / total) as f32);
@@ -169,7 +179,8 @@ impl Pyramid {
         for row in &all[rows.start..rows.end.min(all.len())] {
             if row.is_given {
                 let end = columns.end.min(self.width);
-                sum = sum.wrapping_add(self.given(row.offset + columns.start..row.offset + end).load());
+                sum = sum
+                    .wrapping_add(self.given(row.offset + columns.start..row.offset + end).load());
             }
         }
         std::hint::black_box(sum);
@@ -209,7 +220,11 @@ fn quarters(buffer: &mut [f32], length: usize) -> [&mut [f32]; 4] {
 
 /// The cells of a finer division that a cell of a coarser one overlaps, with the overlapped part of
 /// each.
-fn overlaps(n_fine: usize, n_coarse: usize, idx: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
+fn overlaps(
+    n_fine: usize,
+    n_coarse: usize,
+    idx: usize,
+) -> impl Iterator<Item = (usize, f64)> + Clone {
     // In units of 1/(n_fine n_coarse), so that all edges are whole numbers.
     let (start, end) = (idx * n_fine, (idx + 1) * n_fine);
     let first = start / n_coarse;

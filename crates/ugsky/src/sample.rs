@@ -108,7 +108,8 @@ impl Sampler<'_> {
         spread: f64,
     ) -> Seen {
         let sky = self.panorama;
-        let mut seen = Seen { doppler: [1.0; Seen::N], is_found: [true; Seen::N], ..Seen::default() };
+        let mut seen =
+            Seen { doppler: [1.0; Seen::N], is_found: [true; Seen::N], ..Seen::default() };
         let mut footprints = Footprints::default();
         // Beside poles and edges.
         let mut others = [None; Seen::N];
@@ -138,7 +139,12 @@ impl Sampler<'_> {
 
     /// The light of a footprint of any shape, beside poles and edges too.
     #[inline(never)]
-    pub(crate) fn light_anywhere(&mut self, level: usize, kernel: &Kernel, center: DVec3) -> [f32; 4] {
+    pub(crate) fn light_anywhere(
+        &mut self,
+        level: usize,
+        kernel: &Kernel,
+        center: DVec3,
+    ) -> [f32; 4] {
         self.weigh(level, kernel, center);
         self.sum(level)
     }
@@ -167,8 +173,9 @@ impl Sampler<'_> {
         if first < -pad || last >= n_rows + pad {
             // So many rows have nothing that their weights are summed as an integral instead.
             (first, last) = (first.max(0), last.min(n_rows - 1));
-            self.total =
-                Some((kernel.integral() * grid.rows_per_radian * sky.ladder[level].per_radian) as f32);
+            self.total = Some(
+                (kernel.integral() * grid.rows_per_radian * sky.ladder[level].per_radian) as f32,
+            );
         }
         for idx in first..=last {
             let inside = usize::try_from(idx).ok().filter(|idx| *idx < grid.rows.len());
@@ -309,14 +316,23 @@ impl Sampler<'_> {
 
 /// Adds texels from a column on; there is nothing beyond the edges.
 #[inline]
-fn add_texels(sky: &Panorama, level: usize, row: usize, column: i64, weights: &[f32], light: &mut [f32; 4]) {
+fn add_texels(
+    sky: &Panorama,
+    level: usize,
+    row: usize,
+    column: i64,
+    weights: &[f32],
+    light: &mut [f32; 4],
+) {
     let n = sky.ladder[sky.grids[level].rows[row].ladder].n as i64;
     let (first, end) = (column.max(0), n.min(column + weights.len() as i64));
     if first >= end {
         return;
     }
     let texels = sky.pyramid.texels(level, row, first as usize, (end - first) as usize);
-    for (idx, weight) in weights[(first - column) as usize..(end - column) as usize].iter().enumerate() {
+    for (idx, weight) in
+        weights[(first - column) as usize..(end - column) as usize].iter().enumerate()
+    {
         let texel = texels.get(idx);
         (0..4).for_each(|channel| light[channel] += weight * texel[channel]);
     }
@@ -345,7 +361,8 @@ impl RowWeights {
     #[inline]
     fn chunk(&self, columns: &Columns, at: usize, count: usize, moments: &mut Moments) -> Weights {
         let (cos, sin) = (&columns.cos[at..at + CHUNK], &columns.sin[at..at + CHUNK]);
-        let mut weights = Weights { kernel: [0.0; CHUNK], across: [0.0; CHUNK], along: [0.0; CHUNK] };
+        let mut weights =
+            Weights { kernel: [0.0; CHUNK], across: [0.0; CHUNK], along: [0.0; CHUNK] };
         let [m_s, m_t, m_ss, m_st, m_tt] = &mut moments.0;
         for k in 0..CHUNK {
             let s = self.across[0] * cos[k] + self.across[1] * sin[k] + self.across[2];

@@ -120,7 +120,12 @@ impl Shade {
     }
 
     #[inline(always)]
-    pub(crate) fn see_on<S: Simd>(&self, simd: S, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
+    pub(crate) fn see_on<S: Simd>(
+        &self,
+        simd: S,
+        light: &mut [[f32; Seen::N]; 4],
+        doppler: &[f32; Seen::N],
+    ) {
         let (zero, one) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 1.0));
         let [reds, greens, blues, alphas] = light;
         // Interpolation may exceed the range by a little.
@@ -176,7 +181,11 @@ fn spectra<S: Simd>(
         let seen = table.seen([red[k], green[k], blue[k]], f64::from(doppler[k]));
         (red[k], green[k], blue[k]) = (seen[0], seen[1], seen[2]);
     }
-    [f32x16::from_slice(simd, &red), f32x16::from_slice(simd, &green), f32x16::from_slice(simd, &blue)]
+    [
+        f32x16::from_slice(simd, &red),
+        f32x16::from_slice(simd, &green),
+        f32x16::from_slice(simd, &blue),
+    ]
 }
 
 /// Tables are made for this step in ln D, so that the frames of an acceleration share them.

@@ -79,13 +79,16 @@ impl<'s> Sky<'s> {
             }
         }
         let visible = self.panorama.map(|panorama| (panorama, colors, &range_nm));
-        let bands = self.bands.iter().map(|band| (&band.panorama, colors.on(band.basis), &band.range_nm));
+        let bands =
+            self.bands.iter().map(|band| (&band.panorama, colors.on(band.basis), &band.range_nm));
         let layer = |(panorama, colors, range_nm)| {
             Ok(Layer { panorama, shade: Shade::new(colors, velocity, range_nm, keeps_light)? })
         };
         let mut layers: Vec<Layer<'s>> =
             visible.into_iter().chain(bands).map(layer).collect::<Result<_, _>>()?;
-        if let (Some(layer), Some(factor), Some(_)) = (layers.first_mut(), self.highlights, self.panorama) {
+        if let (Some(layer), Some(factor), Some(_)) =
+            (layers.first_mut(), self.highlights, self.panorama)
+        {
             layer.shade.set_highlights(factor);
         }
         Ok(layers)

@@ -126,14 +126,16 @@ impl SpectralTable {
                 let (idx, part) = place(shift, *first, STEP, maps.len());
                 let [low, high] = [&maps[idx], &maps[idx + 1]];
                 std::array::from_fn(|i| {
-                    let row: [f32; 3] = std::array::from_fn(|j| low[i][j] + part * (high[i][j] - low[i][j]));
+                    let row: [f32; 3] =
+                        std::array::from_fn(|j| low[i][j] + part * (high[i][j] - low[i][j]));
                     row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2]
                 })
             }
             Kind::Mixture { first, lights, colors } => {
                 let (idx, part) = place(shift, *first, STEP, lights.len());
                 let light = |idx: usize| {
-                    let color = || colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
+                    let color =
+                        || colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
                     lights[idx].get_or_init(color)
                 };
                 mixture_seen(rgb, [light(idx), light(idx + 1)], part)
@@ -288,7 +290,8 @@ fn inverse(colors: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let cross = |a: [f64; 3], b: [f64; 3]| {
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
-    let rows = [cross(colors[1], colors[2]), cross(colors[2], colors[0]), cross(colors[0], colors[1])];
+    let rows =
+        [cross(colors[1], colors[2]), cross(colors[2], colors[0]), cross(colors[0], colors[1])];
     let determinant: f64 = (0..3).map(|i| colors[0][i] * rows[0][i]).sum();
     (determinant.abs() > 1e-6).then(|| rows.map(|row| row.map(|part| part / determinant)))
 }

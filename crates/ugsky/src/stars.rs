@@ -45,7 +45,8 @@ impl StarOptions {
 
     /// Light per irradiance and steradian.
     pub fn scale(&self) -> f64 {
-        const SQUARE_DEGREE: f64 = (core::f64::consts::PI / 180.0) * (core::f64::consts::PI / 180.0);
+        const SQUARE_DEGREE: f64 =
+            (core::f64::consts::PI / 180.0) * (core::f64::consts::PI / 180.0);
         libm::exp10(0.4 * self.white) * SQUARE_DEGREE
     }
 

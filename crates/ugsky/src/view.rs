@@ -39,7 +39,12 @@ pub struct SkyView {
 impl SkyView {
     /// The ray of a square of the film, `side` samples wide; `None` where the lens shows nothing.
     #[inline(always)]
-    fn ray(&self, seen: impl Fn([f64; 2]) -> Option<DVec3>, [x, y]: [f64; 2], side: f64) -> Option<SkyRay> {
+    fn ray(
+        &self,
+        seen: impl Fn([f64; 2]) -> Option<DVec3>,
+        [x, y]: [f64; 2],
+        side: f64,
+    ) -> Option<SkyRay> {
         if let Some(FlatFilm { corner, across, down }) = self.flat {
             let direction = corner + x * across + y * down;
             let inverse = 1.0 / direction.length();
@@ -50,7 +55,8 @@ impl SkyView {
         let direction = seen([x, y])?;
         let step = HALF_STEP * side;
         let slope = |[right, below]: [f64; 2]| {
-            let ends = [-1.0, 1.0].map(|sign| seen([x + sign * right * step, y + sign * below * step]));
+            let ends =
+                [-1.0, 1.0].map(|sign| seen([x + sign * right * step, y + sign * below * step]));
             let difference = match ends {
                 [Some(before), Some(after)] => (after - before) / (2.0 * HALF_STEP),
                 [Some(before), None] => (direction - before) / HALF_STEP,

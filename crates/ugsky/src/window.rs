@@ -114,7 +114,14 @@ impl Buffers {
 impl Footprints {
     /// Sets a footprint, and returns whether it has a window.
     #[inline(always)]
-    pub fn set(&mut self, idx: usize, sky: &Panorama, level: usize, kernel: &Kernel, center: DVec3) -> bool {
+    pub fn set(
+        &mut self,
+        idx: usize,
+        sky: &Panorama,
+        level: usize,
+        kernel: &Kernel,
+        center: DVec3,
+    ) -> bool {
         let Some(window) = Window::new(sky, level, kernel, center) else { return false };
         let (a, b) = (kernel.a.as_vec3().to_array(), kernel.b.as_vec3().to_array());
         (0..3).for_each(|axis| (self.a[axis][idx], self.b[axis][idx]) = (a[axis], b[axis]));
@@ -175,8 +182,10 @@ fn weigh<S: Simd>(
     let columns = &sky.ladder[window.ladder as usize];
     let pad = if sky.extent().is_closed() { 0 } else { PAD };
     let (one, zero) = (f32x8::splat(simd, 1.0), f32x8::splat(simd, 0.0));
-    let (a_x, a_y) = (f32x8::splat(simd, footprints.a[0][idx]), f32x8::splat(simd, footprints.a[1][idx]));
-    let (b_x, b_y) = (f32x8::splat(simd, footprints.b[0][idx]), f32x8::splat(simd, footprints.b[1][idx]));
+    let (a_x, a_y) =
+        (f32x8::splat(simd, footprints.a[0][idx]), f32x8::splat(simd, footprints.a[1][idx]));
+    let (b_x, b_y) =
+        (f32x8::splat(simd, footprints.b[0][idx]), f32x8::splat(simd, footprints.b[1][idx]));
     let row = window.row as usize;
     let n_rows = (window.n_rows as usize).min(ROWS);
     // For each row, what its texels have in common.
@@ -200,7 +209,8 @@ fn weigh<S: Simd>(
             let s = level_a + f32x8::splat(simd, row_s[row]);
             let t = level_b + f32x8::splat(simd, row_t[row]);
             let square = s * s + t * t;
-            let rest = f32x8::splat(simd, root[row]) - f32x8::splat(simd, root_cos_square[row]) * square;
+            let rest =
+                f32x8::splat(simd, root[row]) - f32x8::splat(simd, root_cos_square[row]) * square;
             let rest = rest.max(zero);
             let positive = rest * rest;
             let weight = positive * (one - f32x8::splat(simd, row_c[row]) * square);

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use ugphysics::Velocity;
-use ugsky::{ALL_NM, BasisError, Observer, Sampler, Seen, Shade, Sky, SkyColors, StarLight, StarOptions};
+use ugsky::{
+    ALL_NM, BasisError, Observer, Sampler, Seen, Shade, Sky, SkyColors, StarLight, StarOptions,
+};
 
 use crate::open::Opened;
 use crate::star_index::StarIndex;

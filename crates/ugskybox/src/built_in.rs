@@ -88,7 +88,10 @@ impl BuiltIn {
             Self::Dusk => DUSK.opened(),
             Self::Stars => {
                 let list = read_stars("naked-eye.csv", include_bytes!("../stars/naked-eye.csv"));
-                Opened { stars: list.map(|list| list.stars).unwrap_or_default(), ..Opened::default() }
+                Opened {
+                    stars: list.map(|list| list.stars).unwrap_or_default(),
+                    ..Opened::default()
+                }
             }
         }
     }
@@ -112,7 +115,9 @@ impl ClearSky {
         let gradation = 1.0 - libm::exp(-0.32 / direction.z.max(0.01));
         let cos = libm::cos(from_sun);
         gradation
-            * (1.0 + 10.0 * (libm::exp(-3.0 * from_sun) - libm::exp(-3.0 * FRAC_PI_2)) + 0.45 * cos * cos)
+            * (1.0
+                + 10.0 * (libm::exp(-3.0 * from_sun) - libm::exp(-3.0 * FRAC_PI_2))
+                + 0.45 * cos * cos)
     }
 
     /// Reciprocal temperature of the colour, 10⁶/K.
@@ -128,7 +133,9 @@ impl ClearSky {
         let light = |mired: f64, luminance: f64| {
             let at = (0.1 * mired).clamp(0.0, (bodies.len() - 2) as f64);
             let (low, part) = (at as usize, at.fract());
-            [0, 1, 2].map(|i| luminance * (bodies[low][i] + part * (bodies[low + 1][i] - bodies[low][i])))
+            [0, 1, 2].map(|i| {
+                luminance * (bodies[low][i] + part * (bodies[low + 1][i] - bodies[low][i]))
+            })
         };
         let [width, height] = SIZE.map(f64::from);
         let sun = self.sun.normalize();
@@ -151,7 +158,8 @@ impl ClearSky {
             let area = TAU / width * PI / height * libm::hypot(toward.x, toward.y);
             (0..3).for_each(|i| irradiance[i] += light[i] * area * toward.z.max(0.0));
         }
-        let [of_sky, across] = [1.0, self.sun_part].map(|part| part * ugphysics::luminance(irradiance));
+        let [of_sky, across] =
+            [1.0, self.sun_part].map(|part| part * ugphysics::luminance(irradiance));
         // White is the light of a white level surface.
         let whole = of_sky + across * sun.z;
         let scale = PI / whole;
@@ -159,7 +167,8 @@ impl ClearSky {
         let ground = [0, 1, 2].map(|i| GROUND * (irradiance[i] + level[i]) / PI);
         let texel = |idx: usize| {
             let above = (direction(idx).z * height / (8.0 * PI) + 0.5).clamp(0.0, 1.0);
-            let color = |i: usize| (scale * (above * sky[idx][i] + (1.0 - above) * ground[i])) as f32;
+            let color =
+                |i: usize| (scale * (above * sky[idx][i] + (1.0 - above) * ground[i])) as f32;
             [color(0), color(1), color(2), 1.0]
         };
         let texels = Texels::Light((0..n_texels).into_par_iter().map(texel).collect());

@@ -65,7 +65,8 @@ impl SceneSky {
     ) -> Result<(), Failure> {
         let stated = ugparse::stated_sky(source, options);
         self.or_stated(stated.as_ref().map(|(sky, _)| sky));
-        let span = stated.map(|(_, span)| span).filter(|_| matches!(self.source, SkySource::Stated(_)));
+        let span =
+            stated.map(|(_, span)| span).filter(|_| matches!(self.source, SkySource::Stated(_)));
         self.open(common, context).map_err(|failure| match (failure, span) {
             (Failure::Failed(message), Some(span)) => {
                 let finding = Diagnostic::error(span, message).label("named here");

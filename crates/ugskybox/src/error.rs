@@ -32,13 +32,17 @@ pub enum SkyError {
     #[error("a sky is drawn as pixels")]
     Vectors,
     /// A sky in orthographic projection.
-    #[error("in orthographic projection all lines of sight have one direction, so a sky has one colour")]
+    #[error(
+        "in orthographic projection all lines of sight have one direction, so a sky has one colour"
+    )]
     Orthographic,
     /// A sky behind a transparent picture that shows it nowhere else.
     #[error("a transparent background leaves no place for a sky")]
     Transparent,
     /// A sky behind positions without contraction or without time of flight.
-    #[error("a sky is seen with aberration, and time of flight or contraction is left out of this scene")]
+    #[error(
+        "a sky is seen with aberration, and time of flight or contraction is left out of this scene"
+    )]
     PartialGeometry,
     /// A pixel of a picture with a sky is to be explained.
     #[error("pixels are explained without a sky")]

@@ -60,7 +60,8 @@ pub fn open(
         return Err(PanoramaError::Sides { n_files: files.len() }.into());
     }
     for (idx, file) in files.iter().enumerate() {
-        let picture = read_picture(file, &limits).map_err(|error| OpenError::Read { idx, error })?;
+        let picture =
+            read_picture(file, &limits).map_err(|error| OpenError::Read { idx, error })?;
         limits.bytes -= picture.pixels.n_bytes().min(limits.bytes);
         notes.extend(picture.notes);
         if let Some([left, right, top, bottom]) = picture.part
@@ -119,21 +120,24 @@ pub fn open_spectrum(
         samples[at.clamp(0, last) as usize].0 * (1.0 + beyond)
     };
     let band = |first: usize| {
-        let channels: Vec<&[f32]> = samples[first..].iter().take(3).map(|(_, values)| &values[..]).collect();
+        let channels: Vec<&[f32]> =
+            samples[first..].iter().take(3).map(|(_, values)| &values[..]).collect();
         let texel = |idx: usize| {
             let channel = |at: usize| channels.get(at).map_or(0.0, |values| values[idx].max(0.0));
             [channel(0), channel(1), channel(2), 1.0]
         };
         let texels = (0..size[0] as usize * size[1] as usize).map(texel).collect();
         let nm = std::array::from_fn(|at| wavelength((first + at) as isize - 1));
-        let panorama = Panorama::arranged(vec![(size, Texels::Light(texels))], arrangement, extent)?;
+        let panorama =
+            Panorama::arranged(vec![(size, Texels::Light(texels))], arrangement, extent)?;
         Ok(Band { range_nm: ugsky::ALL_NM, basis: Basis::Samples(nm), panorama })
     };
     (0..samples.len()).step_by(3).map(band).collect()
 }
 
 /// The note on highlights that are not clipped.
-const LIGHT: &str = "the panorama holds light, in which no highlights are clipped, so they stay as they are";
+const LIGHT: &str =
+    "the panorama holds light, in which no highlights are clipped, so they stay as they are";
 
 fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
     match pixels {
@@ -150,7 +154,8 @@ fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
                      and colours outside sRGB have it"
                 ));
             }
-            let n_invalid = pixels.iter().filter(|pixel| pixel.iter().any(|part| !part.is_finite())).count();
+            let n_invalid =
+                pixels.iter().filter(|pixel| pixel.iter().any(|part| !part.is_finite())).count();
             if n_invalid > 0 {
                 notes.push(format!(
                     "{n_invalid} pixels of the panorama are not finite: NaN counts as black, and infinite light as the \

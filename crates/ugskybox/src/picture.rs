@@ -42,6 +42,8 @@ pub struct SkyPicture {
 pub fn sky_colors(shift: ColorShift, basis: Basis) -> SkyColors {
     match shift {
         ColorShift::Hues(shift) => SkyColors::Hues { doppler: shift.doppler, law: shift.law },
-        ColorShift::Spectra(shift) => SkyColors::Spectra { basis, doppler: shift.doppler, flux: shift.flux },
+        ColorShift::Spectra(shift) => {
+            SkyColors::Spectra { basis, doppler: shift.doppler, flux: shift.flux }
+        }
     }
 }

@@ -42,7 +42,9 @@ impl PartialEq for SkySource {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::None, Self::None) => true,
-            (Self::File(one), Self::File(other)) | (Self::Stated(one), Self::Stated(other)) => one == other,
+            (Self::File(one), Self::File(other)) | (Self::Stated(one), Self::Stated(other)) => {
+                one == other
+            }
             (Self::Opened(one), Self::Opened(other)) => Arc::ptr_eq(one, other),
             _ => false,
         }

@@ -59,7 +59,8 @@ impl Light<'_> {
     /// `toward`: in the axes of the sky; `side`: of the square, radians.
     fn of(&mut self, toward: DVec3, side: f64) -> [f64; 3] {
         let light = light_around(&mut self.sampler, &self.observer, toward, side);
-        let gain = self.highlights.filter(|_| light[..3].iter().all(|part| *part >= 1.0)).unwrap_or(1.0);
+        let gain =
+            self.highlights.filter(|_| light[..3].iter().all(|part| *part >= 1.0)).unwrap_or(1.0);
         [0, 1, 2].map(|channel| f64::from((gain * light[channel]).max(0.0)))
     }
 }
@@ -112,13 +113,16 @@ impl SkyLamps {
             for point in &mut points {
                 // It is the solid angle for which the point stands until here.
                 let solid_angle = point.linear[0];
-                point.linear = light.of(point.toward, solid_angle.sqrt()).map(|part| part * solid_angle);
+                point.linear =
+                    light.of(point.toward, solid_angle.sqrt()).map(|part| part * solid_angle);
                 sum += luminance(point.linear);
                 point.toward = turn * point.toward;
             }
             // A light that fills the sphere with radiance 1 has irradiance π on a white surface.
             let scale = if sum > 0.0 { n_sets as f64 * total / (PI * sum) } else { 0.0 };
-            points.iter_mut().for_each(|point| point.linear = point.linear.map(|part| part * scale));
+            points
+                .iter_mut()
+                .for_each(|point| point.linear = point.linear.map(|part| part * scale));
             // Every `n_sets`-th is in one set.
             let sets = (0..n_sets).flat_map(|set| points.iter().skip(set).step_by(n_sets));
             points = sets.copied().collect();
@@ -129,7 +133,13 @@ impl SkyLamps {
         };
         let saturation = points.iter().map(saturation).fold(1e-3, f64::max);
         let is_dark = stars.is_empty() && points.is_empty();
-        (!is_dark).then_some(Self { stars, points, n_sets, pure: ugsky::pure_lights(saturation), saturation })
+        (!is_dark).then_some(Self {
+            stars,
+            points,
+            n_sets,
+            pure: ugsky::pure_lights(saturation),
+            saturation,
+        })
     }
 
     /// The rows of [`SkyLamps::pure`] that the light of a point is a mixture of, with their
@@ -152,10 +162,12 @@ impl SkyLamps {
         let [first, last, step] = NM;
         let largest = lamp.linear.into_iter().fold(f64::MIN_POSITIVE, f64::max);
         let value = |nm: f64| {
-            let parts = self.amounts(lamp).map(|(row, amount)| amount * self.pure[row].transmittance(nm));
+            let parts =
+                self.amounts(lamp).map(|(row, amount)| amount * self.pure[row].transmittance(nm));
             parts.sum::<f64>() / largest
         };
-        let samples = (first..=last).step_by(step as usize).map(f64::from).map(|nm| [nm, value(nm)]);
+        let samples =
+            (first..=last).step_by(step as usize).map(f64::from).map(|nm| [nm, value(nm)]);
         Spectrum::reflectance(&samples.collect::<Vec<_>>())
     }
 
@@ -166,13 +178,15 @@ impl SkyLamps {
         let lamp = |lamp: &SkyLamp| {
             let is_mixture = is_spectral && lamp.kelvin.is_none();
             // Skies have a few thousand lights at most.
-            let amounts = self.amounts(lamp).map(|(row, amount)| ((first_pure + row) as u32, amount));
+            let amounts =
+                self.amounts(lamp).map(|(row, amount)| ((first_pure + row) as u32, amount));
             let mixture = if is_mixture { amounts.collect() } else { Vec::new() };
             Lamp::afar(lamp.toward, lamp.linear.into(), &self.spectrum(lamp), motion, is_spectral)
                 .mixed_of(mixture)
         };
         let pure = self.pure.iter().filter(|_| is_spectral);
-        let pure = pure.map(|spectrum| Lamp::afar(DVec3::Z, DVec3::ONE, spectrum, motion, is_spectral));
+        let pure =
+            pure.map(|spectrum| Lamp::afar(DVec3::Z, DVec3::ONE, spectrum, motion, is_spectral));
         self.stars.iter().chain(&self.points).map(lamp).chain(pure).collect()
     }
 

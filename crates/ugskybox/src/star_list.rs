@@ -54,7 +54,10 @@ static COLUMNS: [StarColumn; 11] = [
         range: LONGITUDES,
     },
     StarColumn { names: &["ra_hours", "ra_h"], range: ([-24.0, 24.0], "hours from -24 to 24") },
-    StarColumn { names: &["dec", "dec_deg", "declination", "dej2000", "de_icrs", "dedeg"], range: LATITUDES },
+    StarColumn {
+        names: &["dec", "dec_deg", "declination", "dej2000", "de_icrs", "dedeg"],
+        range: LATITUDES,
+    },
     StarColumn { names: &["lon", "longitude"], range: LONGITUDES },
     StarColumn { names: &["lat", "latitude"], range: LATITUDES },
     StarColumn { names: &["x"], range: COORDINATES },
@@ -68,7 +71,10 @@ static COLUMNS: [StarColumn; 11] = [
         names: &["kelvin", "temperature", "teff", "teff_gspphot", "t"],
         range: ([100.0, 1e6], "kelvins from 100 to 1000000"),
     },
-    StarColumn { names: &["b-v", "bv", "ci"], range: ([-0.4, 8.0], "a colour index from -0.4 to 8") },
+    StarColumn {
+        names: &["b-v", "bv", "ci"],
+        range: ([-0.4, 8.0], "a colour index from -0.4 to 8"),
+    },
 ];
 
 impl StarColumn {
@@ -88,10 +94,14 @@ fn column_of(name: &[u8]) -> Option<(usize, usize)> {
         None => (name, ""),
     };
     let bare = name.trim_start_matches('_');
-    let place = |column: &StarColumn| column.names.iter().position(|known| bare.eq_ignore_ascii_case(known));
-    let (column, place) = COLUMNS.iter().enumerate().find_map(|(row, column)| Some((row, place(column)?)))?;
+    let place = |column: &StarColumn| {
+        column.names.iter().position(|known| bare.eq_ignore_ascii_case(known))
+    };
+    let (column, place) =
+        COLUMNS.iter().enumerate().find_map(|(row, column)| Some((row, place(column)?)))?;
     let is_hours = matches!(unit.to_ascii_lowercase().as_str(), "h" | "hr" | "hours" | "hourangle");
-    let column = if column == Column::Ra as usize && is_hours { Column::RaHours as usize } else { column };
+    let column =
+        if column == Column::Ra as usize && is_hours { Column::RaHours as usize } else { column };
     Some((column, 2 * place + usize::from(bare == name)))
 }
 
@@ -241,7 +251,8 @@ fn read(file: &[u8]) -> Result<StarList, Vec<Diagnostic>> {
     }
     if layout.is_hyg {
         notes.push(
-            "the list has the columns of the HYG catalogue: its right ascensions are in hours".to_owned(),
+            "the list has the columns of the HYG catalogue: its right ascensions are in hours"
+                .to_owned(),
         );
     } else if stars.len() > 1 && (0.0..24.0).contains(&largest) {
         notes.push(
@@ -259,7 +270,8 @@ fn separator(file: &[u8]) -> u8 {
     let mut lines = file.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     let names = lines.find(|line| !line.is_empty() && !is_comment(line)).unwrap_or_default();
     let count = |separator: &u8| names.iter().filter(|byte| *byte == separator).count();
-    let most = [b'\t', b'|', b';', b','].into_iter().max_by_key(count).filter(|most| count(most) > 0);
+    let most =
+        [b'\t', b'|', b';', b','].into_iter().max_by_key(count).filter(|most| count(most) > 0);
     most.unwrap_or(if names.contains(&b' ') { b' ' } else { b',' })
 }
 
@@ -270,7 +282,12 @@ fn is_comment(line: &[u8]) -> bool {
 
 fn reader(file: &[u8], separator: u8) -> Reader<&[u8]> {
     let mut builder = ReaderBuilder::new();
-    builder.has_headers(false).flexible(true).comment(Some(b'#')).delimiter(separator).from_reader(file)
+    builder
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .delimiter(separator)
+        .from_reader(file)
 }
 
 /// Reads the next record, skipping blank lines and comments; returns false at the end of the file.
@@ -366,8 +383,9 @@ impl Layout {
             }
         }
         let missing = |what: &'static str| Wrong(None, StarListMistake::Missing(what));
-        let place =
-            |name: &[u8]| record.iter().position(|other| other.trim_ascii().eq_ignore_ascii_case(name));
+        let place = |name: &[u8]| {
+            record.iter().position(|other| other.trim_ascii().eq_ignore_ascii_case(name))
+        };
         let is_hyg = place(b"rarad").is_some();
         if is_hyg && let Some(idx) = indices[Column::Ra as usize].take() {
             indices[Column::RaHours as usize] = Some(idx);
@@ -410,23 +428,27 @@ impl Layout {
 
     fn star(&self, record: &ByteRecord) -> Result<Star, Wrong> {
         if record.len() != self.n_columns {
-            let mistake = StarListMistake::Fields { n_fields: record.len(), n_columns: self.n_columns };
+            let mistake =
+                StarListMistake::Fields { n_fields: record.len(), n_columns: self.n_columns };
             return Err(Wrong(None, mistake));
         }
-        let is_at_eye =
-            |idx: usize| str::from_utf8(&record[idx]).is_ok_and(|field| field.trim().parse() == Ok(0.0));
+        let is_at_eye = |idx: usize| {
+            str::from_utf8(&record[idx]).is_ok_and(|field| field.trim().parse() == Ok(0.0))
+        };
         if let Some(idx) = self.distance.filter(|&idx| is_at_eye(idx)) {
             return Err(Wrong(Some(idx), StarListMistake::Empty(&COLUMNS[Column::X as usize])));
         }
         let number = |column: Column, idx: usize| {
-            number(&COLUMNS[column as usize], &record[idx]).map_err(|mistake| Wrong(Some(idx), mistake))
+            number(&COLUMNS[column as usize], &record[idx])
+                .map_err(|mistake| Wrong(Some(idx), mistake))
         };
         let direction = match self.direction {
             Direction::Angles([(column, idx), (other, other_idx)]) => {
                 sphere(column, number(column, idx)?, number(other, other_idx)?)
             }
             Direction::Vector([x, y, z]) => {
-                let vector = DVec3::new(number(Column::X, x)?, number(Column::Y, y)?, number(Column::Z, z)?);
+                let vector =
+                    DVec3::new(number(Column::X, x)?, number(Column::Y, y)?, number(Column::Z, z)?);
                 let largest = vector.abs().max_element();
                 if largest == 0.0 {
                     return Err(Wrong(None, StarListMistake::NoDirection));
@@ -455,9 +477,13 @@ fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMist
     };
     let ([least, most], _) = column.range;
     match std::str::from_utf8(field).unwrap_or_default().parse::<f64>() {
-        _ if NOTHING.iter().any(|it| field.eq_ignore_ascii_case(it)) => Err(StarListMistake::Empty(column)),
+        _ if NOTHING.iter().any(|it| field.eq_ignore_ascii_case(it)) => {
+            Err(StarListMistake::Empty(column))
+        }
         Err(_) => Err(StarListMistake::NotANumber(column, quoted())),
-        Ok(number) if !(least..=most).contains(&number) => Err(StarListMistake::OutOfRange(column, quoted())),
+        Ok(number) if !(least..=most).contains(&number) => {
+            Err(StarListMistake::OutOfRange(column, quoted()))
+        }
         Ok(number) => Ok(number),
     }
 }

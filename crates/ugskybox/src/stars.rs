@@ -98,8 +98,8 @@ impl StarField {
                 let square = (facet.direction - direction).length_squared();
                 sum += StarOptions::profile(square, deviation) * facet.solid_angle;
             });
-            let [from, to] =
-                [window.rows.start, window.rows.end].map(|row| row.clamp(above.into(), below.into()) as u32);
+            let [from, to] = [window.rows.start, window.rows.end]
+                .map(|row| row.clamp(above.into(), below.into()) as u32);
             (first, last) = (first.min(from), last.max(to));
         }
         if sum <= 0.0 || first >= last {
@@ -130,7 +130,9 @@ impl StarField {
         for window in self.film.pixels_near(point.direction, StarOptions::REACH * point.deviation) {
             let rows = window.rows.start.max(i64::from(top))..window.rows.end.min(bottom);
             let columns = match self.lens {
-                Lens::Pinhole => window.columns.start.max(left.into())..window.columns.end.min(right.into()),
+                Lens::Pinhole => {
+                    window.columns.start.max(left.into())..window.columns.end.min(right.into())
+                }
                 _ => window.columns,
             };
             self.film.visit(&Window { columns, rows, ..window }, |facet| {
@@ -141,8 +143,11 @@ impl StarField {
                 let square = (facet.direction - point.direction).length_squared();
                 let weight = StarOptions::profile(square, point.deviation);
                 if weight > 0.0 {
-                    let pixel = &mut pixels[(row - top) as usize * width + (column - left) as usize];
-                    (0..3).for_each(|channel| pixel[channel] += (weight * point.light[channel]) as f32);
+                    let pixel =
+                        &mut pixels[(row - top) as usize * width + (column - left) as usize];
+                    (0..3).for_each(|channel| {
+                        pixel[channel] += (weight * point.light[channel]) as f32
+                    });
                     let brightest = pixel[0].max(pixel[1]).max(pixel[2]);
                     pixel[3] = pixel[3].max(brightest.min(1.0));
                 }

@@ -28,7 +28,9 @@ type Light = [[f32; Seen::N]; 4];
 
 /// The directions of a pinhole camera, which are linear in the place.
 fn flat_film(lens: Lens, film: &Film, [left, top]: [f64; 2]) -> Option<FlatFilm> {
-    let at = |place: [f64; 2]| film.sight([left + place[0], top + place[1]]).map(|sight| sight.direction);
+    let at = |place: [f64; 2]| {
+        film.sight([left + place[0], top + place[1]]).map(|sight| sight.direction)
+    };
     if lens != Lens::Pinhole {
         return None;
     }
@@ -79,7 +81,8 @@ impl Found {
         // One instruction; `f32::max` takes several, because of NaN.
         let max = |one: f32, other: f32| if one > other { one } else { other };
         for idx in 0..Seen::N {
-            self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
+            self.max_light[idx] =
+                max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
             self.n_covered[idx] += u32::from(covered[idx] > 0.0);
         }
         for idx in 0..Seen::N {
@@ -136,7 +139,9 @@ impl<'s> Warp<'s> {
 
     /// The panorama, if its light is clipped at white, as in 1988, and alone.
     pub fn clipped(&self) -> Option<&Layer<'s>> {
-        self.panorama.as_ref().filter(|layer| self.bands.is_empty() && !layer.shade.keeps_highlights())
+        self.panorama
+            .as_ref()
+            .filter(|layer| self.bands.is_empty() && !layer.shade.keeps_highlights())
     }
 
     /// Light brighter than white is kept until it is developed.
@@ -153,10 +158,11 @@ impl<'s> Warp<'s> {
         for band in &self.bands {
             progress.step("light outside the visible range", 0);
             let (light, _) = self.light_of(band, &Backdrop::new(Background::Transparent, 1), &());
-            let sums = frame.pixels_mut().par_iter_mut().zip(light.pixels()).map(|(pixel, light)| {
-                (0..3).for_each(|channel| pixel[channel] += light[channel]);
-                pixel[..3].iter().fold(0.0, |most: f32, part| most.max(*part))
-            });
+            let sums =
+                frame.pixels_mut().par_iter_mut().zip(light.pixels()).map(|(pixel, light)| {
+                    (0..3).for_each(|channel| pixel[channel] += light[channel]);
+                    pixel[..3].iter().fold(0.0, |most: f32, part| most.max(*part))
+                });
             statistics.max_light = sums.reduce(|| statistics.max_light, f32::max);
         }
         (frame, statistics)
@@ -287,7 +293,10 @@ impl<'a, F> Drawing<'a, F> {
     {
         let [width, height] = self.warp.size.map(|side| side as usize);
         let mut pixels = vec![T::default(); width * height];
-        pixels.par_chunks_mut(BAND * width).enumerate().for_each(|(band, pixels)| self.band(band, pixels));
+        pixels
+            .par_chunks_mut(BAND * width)
+            .enumerate()
+            .for_each(|(band, pixels)| self.band(band, pixels));
         (pixels, self.statistics())
     }
 
@@ -313,7 +322,8 @@ impl<'a, F> Drawing<'a, F> {
             for (idx, row) in pixels.chunks_mut(width).enumerate() {
                 let row = &mut row[left..width.min(left + TILE)];
                 let place = [left, band * BAND + idx];
-                let mut light = light_of_row(&mut sky, &mut found, place, row.len(), warp.samples as usize);
+                let mut light =
+                    light_of_row(&mut sky, &mut found, place, row.len(), warp.samples as usize);
                 for (pixels, light) in row.chunks_mut(Seen::N).zip(&mut light) {
                     // There is nothing after the end of the row.
                     light.iter_mut().for_each(|channel| channel[pixels.len()..].fill(0.0));

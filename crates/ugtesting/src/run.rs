@@ -65,7 +65,8 @@ impl BuiltProgram {
     /// It fails, or its output is not UTF-8.
     #[track_caller]
     pub fn text(&self, args: &str, input: impl AsRef<[u8]>) -> String {
-        String::from_utf8(self.output(args, input)).unwrap_or_else(|error| panic!("{args}: {error}"))
+        String::from_utf8(self.output(args, input))
+            .unwrap_or_else(|error| panic!("{args}: {error}"))
     }
 
     /// The messages of a run that has to succeed.

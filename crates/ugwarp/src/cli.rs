@@ -13,13 +13,14 @@ use ugmeshfile::foreign_data;
 use ugparse::{Source, pipe};
 use ugphysics::Velocity;
 use ugpicture::cli::{
-    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, refuse_terminal, with_format, write_picture,
+    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, refuse_terminal, with_format,
+    write_picture,
 };
 use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, number, one_of,
-    remedies, sha256, vector,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, number,
+    one_of, remedies, sha256, vector,
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
@@ -302,7 +303,8 @@ impl Args {
     fn scene(&self, path: &Path, context: &Context) -> Result<(Scene, String), Failure> {
         let options = pipe::options(&self.common)?;
         let Input { name, text } = context.input_file(path)?;
-        let source = pipe::follow(Source::new(name, text), &options, context).map_err(pipe::refused)?;
+        let source =
+            pipe::follow(Source::new(name, text), &options, context).map_err(pipe::refused)?;
         let camera = self.picture_options(None)?.camera.name;
         let parsed = ugparse::read(&source, &options, camera.as_deref()).map_err(pipe::refused)?;
         if !parsed.warnings.is_empty() {
@@ -320,7 +322,9 @@ impl Args {
             );
         }
         if self.from.is_some() || self.part.is_some() || self.highlights.is_some() {
-            return refused("the input is a list of stars: leave out -from, -part and --highlights");
+            return refused(
+                "the input is a list of stars: leave out -from, -part and --highlights",
+            );
         }
         let PictureOptions { samples, filter, .. } = self.picture_options(None)?;
         if samples > 1 || filter != Filter::default() {
@@ -342,29 +346,29 @@ impl Args {
             self.files.iter().map(|path| context.input_file(path)).collect::<Result<_, _>>()?;
         let inputs: Vec<&Input> = std::iter::once(input).chain(&others).collect();
         let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
-        context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
+        context
+            .detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
         let arrangement = self.from.unwrap_or_default();
         let mut limits = PictureLimits::default();
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
-        let mut opened =
-            open(&files, Some(arrangement), self.extent(), self.highlights(), limits).map_err(|error| {
-                match error {
-                    OpenError::Read { idx, error } => {
-                        let Input { name, text } = inputs[idx];
-                        let remedy = match foreign_data(name, text) {
-                            None => format!("; {}", remedies::DRAW_SCENE),
-                            Some(_) => CommonArgs::memory_remedy(error.needed_memory()),
-                        };
-                        Failure::Failed(format!("`{name}`: {error}{remedy}"))
-                    }
-                    error => Failure::of(Error::from(error)),
+        let mut opened = open(&files, Some(arrangement), self.extent(), self.highlights(), limits)
+            .map_err(|error| match error {
+                OpenError::Read { idx, error } => {
+                    let Input { name, text } = inputs[idx];
+                    let remedy = match foreign_data(name, text) {
+                        None => format!("; {}", remedies::DRAW_SCENE),
+                        Some(_) => CommonArgs::memory_remedy(error.needed_memory()),
+                    };
+                    Failure::Failed(format!("`{name}`: {error}{remedy}"))
                 }
+                error => Failure::of(Error::from(error)),
             })?;
         opened.others.extend(others.iter().map(|other| sha256(&other.text)));
-        let is_spectral = matches!(self.color_shift(), ColorShift::Spectra(_)) && self.basis.is_none();
+        let is_spectral =
+            matches!(self.color_shift(), ColorShift::Spectra(_)) && self.basis.is_none();
         if is_spectral && arrangement != Arrangement::Sides {
-            let spectrum =
-                open_spectrum(&input.text, arrangement, self.extent(), &limits).map_err(|error| {
+            let spectrum = open_spectrum(&input.text, arrangement, self.extent(), &limits)
+                .map_err(|error| {
                     Failure::Failed(format!("`{}`: {}", input.name, Error::from(error).words()))
                 })?;
             if !spectrum.is_empty() {
@@ -389,8 +393,8 @@ impl Args {
             }
             let file = context.input_file(path)?;
             opened.others.push(sha256(&file.text));
-            let band =
-                open(&[&file.text], Some(arrangement), self.extent(), None, limits).map_err(|error| {
+            let band = open(&[&file.text], Some(arrangement), self.extent(), None, limits)
+                .map_err(|error| {
                     Failure::Failed(format!("`{}`: {}", file.name, Error::from(error).words()))
                 })?;
             opened.notes.extend(band.notes);
@@ -437,7 +441,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let opened = args.open(&input, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let origin = opened.origin(&input, context);
-    let metadata = metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
+    let metadata =
+        metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
 }

@@ -72,7 +72,8 @@ impl Config {
         let mut config = self.clone();
         let options = &self.picture.camera;
         let motion = MotionOptions { time: self.time, ..MotionOptions::default() };
-        let (camera, velocity) = ugscene::moving_camera(scene, &motion, options)?.ok_or(Error::NoCamera)?;
+        let (camera, velocity) =
+            ugscene::moving_camera(scene, &motion, options)?.ok_or(Error::NoCamera)?;
         // They are in the camera now, turned with it.
         let own = &mut config.picture.camera;
         (own.name, own.eye, own.center, own.up) = (None, None, None, None);
@@ -86,8 +87,9 @@ impl Config {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let picture = &self.picture;
         let is_orthographic = self.camera.projection == Some(Projection::Orthographic);
-        let is_of_sky =
-            |channel: &Channel| matches!(channel, Channel::Doppler | Channel::Direction | Channel::Velocity);
+        let is_of_sky = |channel: &Channel| {
+            matches!(channel, Channel::Doppler | Channel::Direction | Channel::Velocity)
+        };
         let are_stars =
             (0.5..=50.0).contains(&self.stars.width) && (-60.0..=60.0).contains(&self.stars.white);
         let ([width, height], annotations) = (picture.size, &picture.annotations);

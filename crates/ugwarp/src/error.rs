@@ -33,7 +33,9 @@ pub enum Error {
     #[error("outline and grid are for scenes")]
     OutlineOrGrid,
     /// A channel that light from infinitely far away does not have.
-    #[error("a sky has no time, distance, Z or id: the channels of a panorama are D, direction and velocity")]
+    #[error(
+        "a sky has no time, distance, Z or id: the channels of a panorama are D, direction and velocity"
+    )]
     Channels,
     /// Width or magnitude of stars out of range.
     #[error("stars are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60")]

@@ -56,9 +56,12 @@ pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
-    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering, Tone,
+    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering,
+    Tone,
 };
 pub use ugscene::CameraOptions;
 pub use ugscene::Provenance;
-pub use ugsky::{ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, StarOptions, Texels};
+pub use ugsky::{
+    ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, StarOptions, Texels,
+};
 pub use ugskybox::{OpenError, Opened, StarList, Warp, is_star_list, open, read_stars};

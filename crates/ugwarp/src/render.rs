@@ -7,7 +7,9 @@ use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
 use ugpicture::lens::Film;
-use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject};
+use ugpicture::{
+    Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject,
+};
 use ugpipe::Progress;
 use ugscene::{CameraError, CameraOptions, Head, Provenance, Scene, View};
 use ugsky::{Basis, Layer, Sky};
@@ -110,12 +112,17 @@ fn sky_picture(config: &Config) -> Result<(SkyPicture, bool), CameraError> {
 
 /// Adds the channels that the options ask for.
 fn push_channels(frame: &mut LinearFrame, warp: &Warp<'_>, config: &Config) {
-    ugpicture::push_channels(frame, &config.picture.channels, DVec3::ZERO, &|idx| warp.seen_item(idx));
+    ugpicture::push_channels(frame, &config.picture.channels, DVec3::ZERO, &|idx| {
+        warp.seen_item(idx)
+    });
 }
 
 /// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+pub const PROVENANCE: Provenance<'static> = Provenance {
+    program: env!("CARGO_PKG_NAME"),
+    version: env!("CARGO_PKG_VERSION"),
+    command: None,
+};
 
 /// The record in a picture of how it was made. `origin`: hash and name of the panorama.
 pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
@@ -127,7 +134,11 @@ pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
 ///
 /// # Errors
 /// See [`Error`].
-pub fn render_opened(opened: &Opened, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+pub fn render_opened(
+    opened: &Opened,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<Rendering, Error> {
     render_with(opened, &*seen_from(opened, config)?, progress)
 }
 
@@ -186,7 +197,12 @@ impl<'s> Prepared<'s> {
         self.warp.clipped().filter(|_| sky.stars.is_empty() && !is_deep)
     }
 
-    fn render(&self, sky: Sky<'_>, metadata: &Metadata, progress: &dyn Progress) -> Result<Rendering, Error> {
+    fn render(
+        &self,
+        sky: Sky<'_>,
+        metadata: &Metadata,
+        progress: &dyn Progress,
+    ) -> Result<Rendering, Error> {
         let Self { config, canvas, picture, warp, is_up_replaced } = self;
         let (content, statistics) = match self.alone(sky) {
             Some(layer) => {
@@ -208,10 +224,16 @@ impl<'s> Prepared<'s> {
             Ok(())
         };
         let view = view(config, config.picture.size)?;
-        let subject =
-            Subject::Surfaces { view: &view, items: &items, scene: None, wires: None, shows_hidden: false };
+        let subject = Subject::Surfaces {
+            view: &view,
+            items: &items,
+            scene: None,
+            wires: None,
+            shows_hidden: false,
+        };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let (brightest, mut notes) = (statistics.max_light, notes(config, *is_up_replaced, &statistics));
+        let (brightest, mut notes) =
+            (statistics.max_light, notes(config, *is_up_replaced, &statistics));
         if sky.panorama.is_none() && sky.bands.is_empty() && sky.stars.is_empty() {
             notes = vec![Note::NoStars];
         }

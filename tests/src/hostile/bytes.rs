@@ -4,8 +4,18 @@ use ugtesting::Random;
 
 /// Changes some bytes, cuts, repeats or inserts some.
 pub fn damage(random: &mut Random, bytes: &mut Vec<u8>) {
-    const WORDS: [&[u8]; 10] =
-        [b"\0", b"\r", b"\xef\xbb\xbf", b"\x1b[31m", b"{", b"}", b"(", b";", b"1e309", b"\xe2\x80\xae"];
+    const WORDS: [&[u8]; 10] = [
+        b"\0",
+        b"\r",
+        b"\xef\xbb\xbf",
+        b"\x1b[31m",
+        b"{",
+        b"}",
+        b"(",
+        b";",
+        b"1e309",
+        b"\xe2\x80\xae",
+    ];
     for _ in 0..1 + random.below(4) {
         if bytes.is_empty() {
             return;

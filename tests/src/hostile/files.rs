@@ -16,7 +16,8 @@ pub fn mesh(random: &mut Random, kind: Kind, format: MeshFormat) -> Vec<u8> {
     let target = match format {
         MeshFormat::Obj if random.one_in(2) => Target::Obj,
         MeshFormat::Obj => {
-            let text = "mtllib material.mtl\nv %\nv %\nv %\nv %\nvn %\nusemtl @\nf 1 2 3\nf -1//1 2 3 4\n";
+            let text =
+                "mtllib material.mtl\nv %\nv %\nv %\nv %\nvn %\nusemtl @\nf 1 2 3\nf -1//1 2 3 4\n";
             return fill(random, kind, text).into_bytes();
         }
         MeshFormat::Off => {
@@ -24,7 +25,8 @@ pub fn mesh(random: &mut Random, kind: Kind, format: MeshFormat) -> Vec<u8> {
             return fill(random, kind, text).into_bytes();
         }
         MeshFormat::Stl if random.one_in(2) => {
-            let facet = "facet normal %\nouter loop\nvertex %\nvertex %\nvertex %\nendloop\nendfacet\n";
+            let facet =
+                "facet normal %\nouter loop\nvertex %\nvertex %\nvertex %\nendloop\nendfacet\n";
             let text = format!("solid @\n{}endsolid\n", facet.repeat(3));
             return fill(random, kind, &text).into_bytes();
         }
@@ -39,7 +41,8 @@ pub fn mesh(random: &mut Random, kind: Kind, format: MeshFormat) -> Vec<u8> {
         MeshFormat::Ug => return scene::statements(random, kind).into_bytes(),
     };
     let name: &&str = random.pick(&["ship", "cubes", "halves"]);
-    let config = ugmesh::Config { format: Some(MeshFormat::Ug), target, ..ugmesh::Config::default() };
+    let config =
+        ugmesh::Config { format: Some(MeshFormat::Ug), target, ..ugmesh::Config::default() };
     let mesh = ugmesh::run(&config, &MeshFile::new("scene.ug", scenes::text(name)));
     mesh.unwrap_or_else(|error| panic!("{error:?}")).bytes
 }

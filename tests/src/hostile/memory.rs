@@ -21,8 +21,12 @@ use super::template::Kind;
 
 /// Small limits, because large scenes take long and reach no further code.
 pub fn limits() -> Limits {
-    let small =
-        [(Limit::Statements, 1000), (Limit::Corners, 4000), (Limit::Names, 1 << 16), (Limit::Files, 20)];
+    let small = [
+        (Limit::Statements, 1000),
+        (Limit::Corners, 4000),
+        (Limit::Names, 1 << 16),
+        (Limit::Files, 20),
+    ];
     small.into_iter().fold(Limits::default(), |limits, (limit, value)| limits.with(limit, value))
 }
 
@@ -61,7 +65,9 @@ fn config<A: ToolArgs, C: Default>(
     config: fn(&A) -> Result<C, Failure>,
 ) -> C {
     let words = options::line(random, Kind::Wild, program);
-    parse_words(words.into_iter().map(OsString::from)).and_then(|args| config(&args)).unwrap_or_default()
+    parse_words(words.into_iter().map(OsString::from))
+        .and_then(|args| config(&args))
+        .unwrap_or_default()
 }
 
 /// The bytes of the last stage that succeeds; empty if the scene is invalid.
@@ -96,7 +102,9 @@ fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> 
         Ok(light) => light,
         Err(error) => return Ok(error.to_string().into_bytes()),
     };
-    if let Some(pixel) = light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite())) {
+    if let Some(pixel) =
+        light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite()))
+    {
         return Err(format!("ugrainbow: the light of a pixel is {pixel:?}"));
     }
     match ugrainbow::render(&scene, &rainbow) {
@@ -134,7 +142,9 @@ pub fn mesh(format: ugmesh::MeshFormat, bytes: &[u8]) -> Result<(), String> {
         ugmesh::run(&config, &input)
     };
     let Ok(scene) = convert(format, Target::Ug, bytes) else { return Ok(()) };
-    if let Err(findings) = ugparse::parse(&Source::new("mesh.ug", scene.bytes.clone()), &Options::default()) {
+    if let Err(findings) =
+        ugparse::parse(&Source::new("mesh.ug", scene.bytes.clone()), &Options::default())
+    {
         return Err(format!("ugmesh has written a scene that is refused:\n{findings}"));
     }
     let targets = [
@@ -171,7 +181,9 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     if let Ok(bands) = ugskybox::open_spectrum(bytes, arrangement, None, &LIMITS) {
         sky(ugwarp::Sky { bands: &bands, ..ugwarp::Sky::default() }, &config, seed)?;
     }
-    let Ok(opened) = ugwarp::open(&[bytes], Some(arrangement), None, None, LIMITS) else { return Ok(()) };
+    let Ok(opened) = ugwarp::open(&[bytes], Some(arrangement), None, None, LIMITS) else {
+        return Ok(());
+    };
     sky((&opened).into(), &config, seed)
 }
 
@@ -204,7 +216,9 @@ fn quick(random: &mut Random, seed: u64) -> ugwarp::Config {
 fn sky(sky: ugwarp::Sky<'_>, config: &ugwarp::Config, seed: u64) -> Result<(), String> {
     // Options that exclude each other are refused.
     let Ok(light) = ugwarp::light(sky, config) else { return Ok(()) };
-    if let Some(pixel) = light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite())) {
+    if let Some(pixel) =
+        light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite()))
+    {
         return Err(format!("ugwarp: the light of a pixel is {pixel:?}"));
     }
     if seed.is_multiple_of(4) {
@@ -242,15 +256,22 @@ pub fn history(bytes: &[u8]) -> Result<(), String> {
 pub fn picture(bytes: &[u8]) -> Result<(), String> {
     let Ok((frame, history)) = ugimage::read_png(bytes, &LIMITS) else { return Ok(()) };
     let size = [frame.width(), frame.height()];
-    let picture =
-        ugsheet::Picture { name: "a".to_owned(), size, motion: ugsheet::Motion::recorded(&history), history };
+    let picture = ugsheet::Picture {
+        name: "a".to_owned(),
+        size,
+        motion: ugsheet::Motion::recorded(&history),
+        history,
+    };
     let pictures = [picture.clone(), ugsheet::Picture { history: Metadata::default(), ..picture }];
     let sheet = ugsheet::Sheet::new(&ugsheet::Config::default(), &pictures);
     let Ok(sheet) = sheet.and_then(|sheet| sheet.draw(|_| Ok(frame.clone()))) else {
         return Ok(());
     };
     let metadata = ugsheet::history(&pictures, Some("ugsheet"));
-    match ugimage::read_png(&Format::Png.encode(&sheet, &metadata), &ugimage::PictureLimits::default()) {
+    match ugimage::read_png(
+        &Format::Png.encode(&sheet, &metadata),
+        &ugimage::PictureLimits::default(),
+    ) {
         Ok((frame, _)) if frame == sheet => Ok(()),
         Ok(_) => Err("a sheet is read with other pixels than were written".to_owned()),
         Err(error) => Err(format!("a sheet is refused: {error}")),

@@ -53,14 +53,23 @@ impl Case {
         let random = &mut random;
         let (name, file, programs) = match random.below(8) {
             0 => ("0.png", File::Picture, &["ugsheet"][..]),
-            1 => ("0.sky", if random.one_in(3) { File::Stars } else { File::Panorama }, &["ugwarp"][..]),
+            1 => (
+                "0.sky",
+                if random.one_in(3) { File::Stars } else { File::Panorama },
+                &["ugwarp"][..],
+            ),
             2 | 3 => {
                 let format = *random.pick(&MESHES);
-                ("mesh", File::Mesh(format), *random.pick(&[&["ugmesh"][..], &["uglorentz", "ugrainbow"]]))
+                (
+                    "mesh",
+                    File::Mesh(format),
+                    *random.pick(&[&["ugmesh"][..], &["uglorentz", "ugrainbow"]]),
+                )
             }
             _ => ("scene.ug", File::Scene, PIPES[random.below(PIPES.len())]),
         };
-        let input = if kind == Kind::Wild { file.generate(random) } else { file.undamaged(random, kind) };
+        let input =
+            if kind == Kind::Wild { file.generate(random) } else { file.undamaged(random, kind) };
         let mut stages: Vec<Vec<String>> =
             programs.iter().map(|program| options::line(random, kind, program)).collect();
         if file != File::Scene {
@@ -78,7 +87,8 @@ impl Case {
     pub fn run(&self, programs: &Path) -> Result<bool, String> {
         let stages: Vec<String> = self.stages.iter().map(|words| words.join(" ")).collect();
         let shell = format!("  {} < {}", stages.join(" | "), self.files[0].0);
-        run::run(self, programs).map_err(|finding| format!("case {}: {finding}\n{shell}", self.seed))
+        run::run(self, programs)
+            .map_err(|finding| format!("case {}: {finding}\n{shell}", self.seed))
     }
 
     /// Writes the files of the case into a folder, to look into it by hand.

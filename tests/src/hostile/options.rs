@@ -108,7 +108,10 @@ pub fn line(random: &mut Random, kind: Kind, program: &str) -> Vec<String> {
     }
     if program == "ugfilm" && random.one_in(2) {
         line.truncate(line.len() - 2);
-        line.extend(["-fo".to_owned(), format!("{FRAMES}%d.{}", random.pick(&["png", "exr", "pdf"]))]);
+        line.extend([
+            "-fo".to_owned(),
+            format!("{FRAMES}%d.{}", random.pick(&["png", "exr", "pdf"])),
+        ]);
     }
     let options: Vec<&Entry> = manual.options().filter(|option| !is_excluded(option)).collect();
     let mut given: Vec<&str> = Vec::new();

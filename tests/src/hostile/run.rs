@@ -45,7 +45,8 @@ pub fn run(case: &Case, programs: &Path) -> Result<bool, String> {
             || [".exposure", ".scene"].iter().any(|kept| name.ends_with(kept))
             || case.files.iter().any(|(given, _)| name == given)
     };
-    let names = fs::read_dir(folder.path()).map_err(words)?.flatten().map(|entry| entry.file_name());
+    let names =
+        fs::read_dir(folder.path()).map_err(words)?.flatten().map(|entry| entry.file_name());
     let left: Vec<_> = names.filter(|name| !is_known(&name.to_string_lossy())).collect();
     if left.is_empty() { Ok(output.is_some()) } else { Err(format!("files are left: {left:?}")) }
 }
@@ -69,11 +70,14 @@ fn pipe(
         words.extend(threads.iter().flat_map(|n| ["-nt", n]).map(str::to_owned));
         let about = |finding: String| format!("{}: {finding}", words.join(" "));
         let stage = |memory: u64| {
-            stage(programs, &words, &input, folder, memory).map_err(|error| about(self::words(error)))
+            stage(programs, &words, &input, folder, memory)
+                .map_err(|error| about(self::words(error)))
         };
         let allowed = |n_bytes: usize| ALLOCATED + TIMES * n_bytes as u64 / 1024;
         let mut ended = stage(allowed(n_files + input.len()))?;
-        if ended.messages.contains("not enough memory") || ended.messages.contains("memory allocation of ") {
+        if ended.messages.contains("not enough memory")
+            || ended.messages.contains("memory allocation of ")
+        {
             // Within that for its output as well, which has to be known.
             let whole = stage(ADDRESS_SPACE)?;
             let memory = allowed(n_files + input.len() + whole.output.len());
@@ -91,7 +95,9 @@ fn pipe(
         if ended.status.code() != Some(0) {
             if idx > 0 && is_diagnostic(&ended.messages) {
                 let messages = ended.messages;
-                return Err(about(format!("refuses the scene that a program has written:\n{messages}")));
+                return Err(about(format!(
+                    "refuses the scene that a program has written:\n{messages}"
+                )));
             }
             return Ok(None);
         }
@@ -126,7 +132,9 @@ fn check(program: &str, ended: &Ended, may_be_silent: bool) -> Result<(), String
         (0, _) | (1 | 2, true) => {}
         // A film is written frame by frame.
         (1, false) if program == "ugfilm" => {}
-        (1 | 2, false) => return Err(format!("status {status} and {} bytes of output", ended.output.len())),
+        (1 | 2, false) => {
+            return Err(format!("status {status} and {} bytes of output", ended.output.len()));
+        }
         _ => return Err(format!("status {status}\n{messages}")),
     }
     if status > 0 && messages.trim().is_empty() {
@@ -151,14 +159,21 @@ pub fn is_dangerous(c: char) -> bool {
 /// True if a message has an infinity or NaN as a number. Words of the input are in quotes, or in
 /// lines of the input, behind `|`.
 fn has_invalid_number(messages: &str) -> bool {
-    let words = messages.lines().filter(|line| !line.contains(" | ")).flat_map(str::split_whitespace);
+    let words =
+        messages.lines().filter(|line| !line.contains(" | ")).flat_map(str::split_whitespace);
     words
         .map(|word| word.trim_matches(|c: char| "(),;:%".contains(c)))
         .any(|word| ["inf", "-inf", "NaN"].contains(&word))
 }
 
 /// Runs a program. `memory`: what it may allocate, in KiB.
-fn stage(programs: &Path, words: &[String], input: &[u8], folder: &Path, memory: u64) -> io::Result<Ended> {
+fn stage(
+    programs: &Path,
+    words: &[String],
+    input: &[u8],
+    folder: &Path,
+    memory: u64,
+) -> io::Result<Ended> {
     let (messages, output) = (tempfile::tempfile()?, tempfile::tempfile()?);
     let script = format!(
         "ulimit -v {ADDRESS_SPACE}; ulimit -d {memory}; ulimit -t {PROCESSOR_LIMIT}; \

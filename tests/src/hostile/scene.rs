@@ -87,7 +87,10 @@ pub fn statements(random: &mut Random, kind: Kind) -> String {
         text += &fill(random, kind, template);
         text.push('\n');
     };
-    add(random, "surf mirror .1 .9 0 1 60 ; surf glass 0 .1 .9 1.5 60 ; c red1 # 2# 1 ; c red2 # 9# # # ;");
+    add(
+        random,
+        "surf mirror .1 .9 0 1 60 ; surf glass 0 .1 .9 1.5 60 ; c red1 # 2# 1 ; c red2 # 9# # # ;",
+    );
     let color = *random.pick(&COLORS);
     add(random, color);
     add(random, DEFINITION);
@@ -109,8 +112,9 @@ pub fn statements(random: &mut Random, kind: Kind) -> String {
 
 /// A scene of the repository that is not large.
 pub fn known(random: &mut Random) -> Vec<u8> {
-    const NAMES: [&str; 10] =
-        ["ship", "cubes", "dice", "glass", "halves", "traffic", "lamp", "rainbow", "twins", "orbit"];
+    const NAMES: [&str; 10] = [
+        "ship", "cubes", "dice", "glass", "halves", "traffic", "lamp", "rainbow", "twins", "orbit",
+    ];
     let name: &&str = random.pick(&NAMES);
     scenes::text(name)
 }

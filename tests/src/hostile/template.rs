@@ -77,7 +77,11 @@ pub fn velocity(random: &mut Random, kind: Kind) -> [String; 3] {
     if kind == Kind::Wild && random.one_in(8) {
         return random.pick(&FAST).map(str::to_owned);
     }
-    let speed = if random.one_in(5) { 1.0 - libm::exp10(random.between(-9.0, -1.0)) } else { random.unit() };
+    let speed = if random.one_in(5) {
+        1.0 - libm::exp10(random.between(-9.0, -1.0))
+    } else {
+        random.unit()
+    };
     (random.direction() * speed * 0.999_999_999).to_array().map(|part| part.to_string())
 }
 

@@ -50,7 +50,10 @@ impl Curve {
             for row in (0..n).filter(|&row| row != pivot) {
                 let factor = matrix[row][pivot] / matrix[pivot][pivot];
                 let subtracted = matrix[pivot].clone();
-                matrix[row].iter_mut().zip(subtracted).for_each(|(entry, other)| *entry -= factor * other);
+                matrix[row]
+                    .iter_mut()
+                    .zip(subtracted)
+                    .for_each(|(entry, other)| *entry -= factor * other);
                 right[row] = right[row] - factor * right[pivot];
             }
         }
@@ -82,8 +85,9 @@ impl Curve {
         let h = self.rows[k + 1][0] - self.rows[k][0];
         let (s, rise) = ((t - self.rows[k][0]) / h, place(self.rows[k + 1]) - place(self.rows[k]));
         let (a, b) = (self.slopes[k], self.slopes[k + 1]);
-        let velocity =
-            6.0 * s * (1.0 - s) / h * rise + (1.0 - s) * (1.0 - 3.0 * s) * a + s * (3.0 * s - 2.0) * b;
+        let velocity = 6.0 * s * (1.0 - s) / h * rise
+            + (1.0 - s) * (1.0 - 3.0 * s) * a
+            + s * (3.0 * s - 2.0) * b;
         let acceleration = (6.0 - 12.0 * s) / h * rise + (6.0 * s - 4.0) * a + (6.0 * s - 2.0) * b;
         (velocity, acceleration / h)
     }
@@ -131,7 +135,8 @@ impl Curve {
         let mut all = vec![start];
         for pair in self.rows.windows(2) {
             let h = (pair[1][0] - pair[0][0]) / N_STEPS as f64;
-            let carried = |e: Four| (0..N_STEPS).fold(e, |e, k| step(pair[0][0] + k as f64 * h, h, e));
+            let carried =
+                |e: Four| (0..N_STEPS).fold(e, |e, k| step(pair[0][0] + k as f64 * h, h, e));
             all.push(all[all.len() - 1].map(carried));
         }
         all

@@ -87,8 +87,10 @@ impl Body {
             };
             let mut spins = [DVec3::ZERO; MOST_TURNS];
             spins.iter_mut().zip(&turns).for_each(|(spin, (_, pieces))| *spin = of(pieces));
-            let is_on_curve =
-                knots.first().zip(knots.last()).is_some_and(|(from, to)| (*from..*to).contains(&inside));
+            let is_on_curve = knots
+                .first()
+                .zip(knots.last())
+                .is_some_and(|(from, to)| (*from..*to).contains(&inside));
             Rates { acceleration: of(accelerations), is_on_curve, spins }
         };
         let pieces = accelerations.iter().chain(turns.iter().flat_map(|(_, spins)| *spins));
@@ -188,7 +190,10 @@ impl Body {
     fn state(&self, own_time: f64) -> (State, &Rates) {
         let row = self.nodes.partition_point(|node| node.0 <= own_time).max(1) - 1;
         let (known_at, state, rates) = &self.nodes[row];
-        assert!((own_time - known_at).abs() < 2.0 * STEP, "{own_time} is outside of the integrated time");
+        assert!(
+            (own_time - known_at).abs() < 2.0 * STEP,
+            "{own_time} is outside of the integrated time"
+        );
         (self.step(*known_at, *state, rates, own_time - known_at), rates)
     }
 
@@ -212,7 +217,8 @@ impl Body {
         let (mut event, mut velocity) = (first(&s, 0), first(&s, 4));
         for (k, (xi, swing)) in offset.to_array().into_iter().zip(swing.to_array()).enumerate() {
             event = plus(event, xi, first(&s, 8 + 4 * k));
-            velocity = plus(plus(velocity, xi, first(&rate, 8 + 4 * k)), swing, first(&s, 8 + 4 * k));
+            velocity =
+                plus(plus(velocity, xi, first(&rate, 8 + 4 * k)), swing, first(&s, 8 + 4 * k));
         }
         let norm = -product(velocity, velocity);
         assert!(norm > 0.0, "the point is slower than light");

@@ -57,7 +57,11 @@ pub struct Statement {
 impl Statement {
     /// Constant velocity.
     pub fn inertial(velocity: DVec3) -> Self {
-        Self { at: DVec3::ZERO, path: Path::Free { velocity, accelerations: Vec::new() }, spins: Vec::new() }
+        Self {
+            at: DVec3::ZERO,
+            path: Path::Free { velocity, accelerations: Vec::new() },
+            spins: Vec::new(),
+        }
     }
 
     /// Its text. The carrier of `-on` has the name `m` and its row.
@@ -69,7 +73,8 @@ impl Statement {
                 accelerations.iter().for_each(|piece| text += &piece.option("acc"));
             }
             Path::Orbit { center, axis, rate } => {
-                write!(text, " -orbit {} {} {rate:?}", words(*center), words(*axis)).expect("memory");
+                write!(text, " -orbit {} {} {rate:?}", words(*center), words(*axis))
+                    .expect("memory");
             }
             Path::Events(rows) => {
                 let rows: Vec<String> =
@@ -88,12 +93,15 @@ impl Statement {
         let parity = turn.determinant().signum();
         let place = |place: DVec3| unit * (turn * place);
         let path = match &self.path {
-            Path::Free { velocity, accelerations } => {
-                Path::Free { velocity: turn * *velocity, accelerations: turned(accelerations, turn, unit) }
-            }
-            Path::Orbit { center, axis, rate } => {
-                Path::Orbit { center: place(*center), axis: parity * (turn * *axis), rate: rate / unit }
-            }
+            Path::Free { velocity, accelerations } => Path::Free {
+                velocity: turn * *velocity,
+                accelerations: turned(accelerations, turn, unit),
+            },
+            Path::Orbit { center, axis, rate } => Path::Orbit {
+                center: place(*center),
+                axis: parity * (turn * *axis),
+                rate: rate / unit,
+            },
             Path::Events(rows) => {
                 let placed = |&[t, x, y, z]: &Four| {
                     let [x, y, z] = place(DVec3::new(x, y, z)).to_array();
@@ -112,7 +120,9 @@ impl Statement {
     /// It is an orbit or a path, which are given in the frame of the scene, or rides on another one.
     #[must_use]
     pub fn boosted(&self, velocity: DVec3, turn: DMat3) -> Self {
-        let Path::Free { accelerations, .. } = &self.path else { panic!("it has no velocity of its own") };
+        let Path::Free { accelerations, .. } = &self.path else {
+            panic!("it has no velocity of its own")
+        };
         let path = Path::Free { velocity, accelerations: turned(accelerations, turn, 1.0) };
         Self { at: turn * self.at, path, spins: turned(&self.spins, turn, 1.0) }
     }

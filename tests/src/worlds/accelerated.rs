@@ -11,7 +11,9 @@ use super::picture::{Picture, SPECTRA, UNSHIFTED, by_law};
 use super::renderers::check_pipe;
 use super::spacetime::{Change, Event, boost};
 use super::world::{Body, Camera, Lamp, LampPlace, World};
-use crate::world_lines::{self, Four, Path, Statement, Stretch, boosted, four_velocity, plus, product};
+use crate::world_lines::{
+    self, Four, Path, Statement, Stretch, boosted, four_velocity, plus, product,
+};
 
 /// Own times that are integrated.
 const RANGE: [f64; 2] = [-40.0, 25.0];
@@ -81,7 +83,8 @@ fn in_parts(mut motion: Statement) -> Statement {
     let halves = |pieces: &[Stretch]| -> Vec<Stretch> {
         let split = |piece: &Stretch| {
             let middle = 0.3 * piece.from + 0.7 * piece.to;
-            let (before, behind) = (Stretch { to: middle, ..*piece }, Stretch { from: middle, ..*piece });
+            let (before, behind) =
+                (Stretch { to: middle, ..*piece }, Stretch { from: middle, ..*piece });
             if piece.to.is_finite() { vec![behind, before] } else { vec![*piece] }
         };
         pieces.iter().flat_map(split).collect()
@@ -159,7 +162,8 @@ fn through(mut motion: Statement, event: Event) -> (Statement, DVec3) {
         let way = |own_time: f64| plus(event, -1.0, body.moment(DVec3::ZERO, own_time).event);
         let own_time = root(|own_time| product(way(own_time), four_velocity(velocity)));
         let axes: [Four; 3] = [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-        motion.at = DVec3::from_array(axes.map(|axis| product(way(own_time), boosted(velocity, axis))));
+        motion.at =
+            DVec3::from_array(axes.map(|axis| product(way(own_time), boosted(velocity, axis))));
         return (motion.clone(), motion.at - from);
     }
     let body = world_lines::Body::new(std::slice::from_ref(&motion), 0, RANGE);

@@ -95,9 +95,13 @@ pub fn check_light(one: &Drawn, other: &Drawn, light: Vec<[f32; 3]>) -> Result<u
 ///
 /// # Errors
 /// More pixels differ.
-pub fn check_pipe_light(mut pairs: Vec<([f32; 3], [f32; 3])>, drawn: [&Drawn; 2]) -> Result<usize, String> {
+pub fn check_pipe_light(
+    mut pairs: Vec<([f32; 3], [f32; 3])>,
+    drawn: [&Drawn; 2],
+) -> Result<usize, String> {
     let n_lit = n_lit(&pairs);
-    let most = pairs.iter().flat_map(|(one, _)| one).fold(0.0_f32, |most, channel| most.max(*channel));
+    let most =
+        pairs.iter().flat_map(|(one, _)| one).fold(0.0_f32, |most, channel| most.max(*channel));
     for channel in pairs.iter_mut().flat_map(|(one, other)| one.iter_mut().chain(other)) {
         *channel += PIPE_ABSOLUTE * most;
     }

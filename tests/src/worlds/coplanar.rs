@@ -16,7 +16,10 @@ pub fn last(random: &mut Random) -> Outcome {
     let (world, renderer) = random_world(random);
     let row = random.below(world.bodies.len());
     let host = &world.bodies[row];
-    if host.round.is_some() || host.paint[3] > 0.0 || host.vertex_paints.iter().any(|paint| paint[3] > 0.0) {
+    if host.round.is_some()
+        || host.paint[3] > 0.0
+        || host.vertex_paints.iter().any(|paint| paint[3] > 0.0)
+    {
         // It is seen through its host, or its host is not flat.
         return Ok(0);
     }
@@ -39,7 +42,8 @@ pub fn first(random: &mut Random) -> Outcome {
     // Where another body is within the distance, a pixel may differ.
     let middle = decal.vertices.iter().sum::<DVec3>() / decal.vertices.len() as f64;
     let size = (decal.vertices[0] - decal.vertices[1]).length();
-    let normal = (decal.vertices[1] - decal.vertices[0]).cross(decal.vertices[2] - decal.vertices[0]);
+    let normal =
+        (decal.vertices[1] - decal.vertices[0]).cross(decal.vertices[2] - decal.vertices[0]);
     let velocity = decal.velocity.unwrap_or_default();
     let toward_eye = rest_place(world.camera.event, velocity) - middle;
     if decal.motion.is_some() || normal.length() == 0.0 {

@@ -12,8 +12,12 @@ use super::spacetime::aberrated;
 use super::world::{LampPlace, World};
 use ugphoton::{Channel, ColorShift};
 
-const SHIFTS: [ColorShift; 4] =
-    [SPECTRA, UNSHIFTED, by_law(ugphysics::Brightness::Report), by_law(ugphysics::Brightness::Bolometric)];
+const SHIFTS: [ColorShift; 4] = [
+    SPECTRA,
+    UNSHIFTED,
+    by_law(ugphysics::Brightness::Report),
+    by_law(ugphysics::Brightness::Bolometric),
+];
 
 const RENDERERS: [Renderer; 4] = [Renderer::Rays, Renderer::Rays, Renderer::Exact, Renderer::Pipe];
 
@@ -39,8 +43,13 @@ fn both(
 /// Both worlds have the same picture, by rays or by the whole pipe, which measures the error of
 /// light at single points: where a lamp accelerates its bound can be exceeded between them.
 pub(super) fn check_both(random: &mut Random, one: &World, other: &World) -> Outcome {
-    let [one, other] =
-        both(random, one, other, &[Renderer::Rays, Renderer::Rays, Renderer::Pipe], LIGHT_ERROR / 5.0)?;
+    let [one, other] = both(
+        random,
+        one,
+        other,
+        &[Renderer::Rays, Renderer::Rays, Renderer::Pipe],
+        LIGHT_ERROR / 5.0,
+    )?;
     check_same(&one, &other)
 }
 
@@ -80,7 +89,8 @@ pub fn parity(random: &mut Random) -> Outcome {
     let recipe = Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfaces::Glass };
     let world = world(random, recipe);
     let turn = rotation(random) * DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0));
-    let [one, other] = both(random, &world, &world.placed(turn, 1.0, DVec3::ZERO), &RENDERERS, LIGHT_ERROR)?;
+    let [one, other] =
+        both(random, &world, &world.placed(turn, 1.0, DVec3::ZERO), &RENDERERS, LIGHT_ERROR)?;
     check_reversed(&one, &other)
 }
 
@@ -114,7 +124,10 @@ pub fn passing_eyes(random: &mut Random) -> Outcome {
         };
         let is_direction =
             direction(&one, at).iter().zip(direction(&other, 0)).all(|(a, b)| (a - b).abs() < 1e-5);
-        if one.ids()[at] != other.ids()[0] || !is_same(one.light()[at], other.light()[0]) || !is_direction {
+        if one.ids()[at] != other.ids()[0]
+            || !is_same(one.light()[at], other.light()[0])
+            || !is_direction
+        {
             let light = (one.light()[at], other.light()[0]);
             let directions = (direction(&one, at), direction(&other, 0));
             return Err(format!(

@@ -45,7 +45,8 @@ pub enum Surfaces {
 /// A random world, with two to four bodies that are seen and a wall behind them.
 pub fn world(random: &mut Random, recipe: Recipe) -> World {
     let camera = camera(random);
-    let mut bodies: Vec<Body> = (0..2 + random.below(3)).map(|_| body(random, &camera, recipe)).collect();
+    let mut bodies: Vec<Body> =
+        (0..2 + random.below(3)).map(|_| body(random, &camera, recipe)).collect();
     bodies.push(wall(random, &camera, recipe.fastest));
     if random.one_in(3) {
         // All at one velocity, or none.
@@ -66,7 +67,11 @@ pub fn under_sky(random: &mut Random, world: World) -> World {
 pub fn camera(random: &mut Random) -> Camera {
     let velocity = if random.one_in(2) { DVec3::ZERO } else { random.in_ball(0.8) };
     let camera = Camera {
-        event: random.in_cube(3.0).extend(if random.one_in(3) { 0.0 } else { random.between(-3.0, 3.0) }),
+        event: random.in_cube(3.0).extend(if random.one_in(3) {
+            0.0
+        } else {
+            random.between(-3.0, 3.0)
+        }),
         velocity,
         forward: DVec3::Y,
         up: DVec3::Z,
@@ -120,7 +125,8 @@ pub fn set_velocity(body: &mut Body, camera: &Camera, velocity: Option<DVec3>) {
 /// A body that is seen within the picture.
 pub fn body(random: &mut Random, camera: &Camera, recipe: Recipe) -> Body {
     let half = 0.9 * libm::tan(0.5 * camera.angle.to_radians());
-    let aside = random.between(-half, half) * camera.right() + 0.75 * random.between(-half, half) * camera.up;
+    let aside = random.between(-half, half) * camera.right()
+        + 0.75 * random.between(-half, half) * camera.up;
     let place = (camera.forward + aside).normalize() * random.between(3.0, 9.0);
     let velocity = velocity(random, recipe.fastest);
     let at = rest_place(seen_event(camera, place), velocity.unwrap_or_default());
@@ -135,7 +141,9 @@ pub fn body(random: &mut Random, camera: &Camera, recipe: Recipe) -> Body {
 
 /// The same world, in which some bodies are covered with a picture.
 pub fn textured(random: &mut Random, mut world: World) -> World {
-    for body in world.bodies.iter_mut().filter(|body| body.round.is_none() && body.measured.is_none()) {
+    for body in
+        world.bodies.iter_mut().filter(|body| body.round.is_none() && body.measured.is_none())
+    {
         if random.one_in(3) && body.paint[3] == 0.0 {
             let across = [random.direction(), random.direction()];
             let coordinates = |place: &DVec3| DVec2::from(across.map(|axis| axis.dot(*place)));
@@ -160,9 +168,14 @@ fn surface(random: &mut Random, surfaces: Surfaces) -> Surface {
     let exponent = random.between(1.0, 40.0);
     match (random.below(6), surfaces) {
         (0, _) => Surface::Level(random.between(0.2, 1.5)),
-        (1 | 2, Surfaces::Mirrors | Surfaces::Glass) => {
-            Surface::Reflecting([random.between(0.2, 0.8), random.between(0.1, 0.8), 0.0, 1.0, exponent, 0.0])
-        }
+        (1 | 2, Surfaces::Mirrors | Surfaces::Glass) => Surface::Reflecting([
+            random.between(0.2, 0.8),
+            random.between(0.1, 0.8),
+            0.0,
+            1.0,
+            exponent,
+            0.0,
+        ]),
         (3, Surfaces::Glass) => {
             let absorption = if random.one_in(2) { 0.0 } else { random.between(0.0, 0.4) };
             Surface::Reflecting([0.0, 0.1, 0.8, random.between(1.1, 1.8), exponent, absorption])
@@ -238,7 +251,8 @@ pub fn shape(random: &mut Random) -> Body {
 
 /// A sphere, a cylinder or a disc, exactly round: ends of radii and points of rims.
 fn round(random: &mut Random) -> Body {
-    let rim = |z: f64| [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|side| side + z * DVec3::Z);
+    let rim =
+        |z: f64| [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|side| side + z * DVec3::Z);
     let (word, vertices, faces) = match random.below(3) {
         0 => {
             let ends = DMat3::IDENTITY.to_cols_array_2d().map(DVec3::from);
@@ -278,14 +292,19 @@ pub fn square() -> Body {
 pub fn cube() -> Body {
     let side = |bit: usize, row: usize| if row >> bit & 1 == 1 { 0.6 } else { -0.6 };
     let vertices = (0..8).map(|row| DVec3::new(side(0, row), side(1, row), side(2, row))).collect();
-    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     plain(vertices, faces.map(Vec::from).to_vec())
 }
 
 fn pyramid() -> Body {
     let base = square().vertices;
-    let vertices = base.into_iter().map(|place| 0.7 * (place - DVec3::Z)).chain([DVec3::Z]).collect();
-    plain(vertices, vec![vec![3, 2, 1, 0], vec![0, 1, 4], vec![1, 2, 4], vec![2, 3, 4], vec![3, 0, 4]])
+    let vertices =
+        base.into_iter().map(|place| 0.7 * (place - DVec3::Z)).chain([DVec3::Z]).collect();
+    plain(
+        vertices,
+        vec![vec![3, 2, 1, 0], vec![0, 1, 4], vec![1, 2, 4], vec![2, 3, 4], vec![3, 0, 4]],
+    )
 }
 
 /// A sphere of flat faces, with `sectors` around and half as many bands.

@@ -26,16 +26,21 @@ fn check_sum(random: &mut Random, shift: ColorShift) -> Outcome {
     // The pipe interpolates hues between the corners of pieces, which is not linear.
     let with_hues = &[Renderer::Rays, Renderer::Exact];
     let with_spectra = &[Renderer::Rays, Renderer::Rays, Renderer::Exact, Renderer::Pipe];
-    let renderer = if shift == SPECTRA { *random.pick(with_spectra) } else { *random.pick(with_hues) };
+    let renderer =
+        if shift == SPECTRA { *random.pick(with_spectra) } else { *random.pick(with_hues) };
     let lamps = if renderer == Renderer::Exact { Lamps::Unstated } else { Lamps::All };
     let (world, recipe) = dark_world(random, lamps);
-    let others: Vec<Lamp> =
-        (0..1 + random.below(2)).map(|_| lamp(random, &world.camera, &world.bodies, recipe)).collect();
+    let others: Vec<Lamp> = (0..1 + random.below(2))
+        .map(|_| lamp(random, &world.camera, &world.bodies, recipe))
+        .collect();
     let factor = random.between(0.1, 20.0);
-    let scaled: Vec<Lamp> =
-        others.iter().map(|lamp| Lamp { intensity: factor * lamp.intensity, ..lamp.clone() }).collect();
+    let scaled: Vec<Lamp> = others
+        .iter()
+        .map(|lamp| Lamp { intensity: factor * lamp.intensity, ..lamp.clone() })
+        .collect();
     // With shadows, another point of an area lights each sample.
-    let areas = world.lamps.iter().chain(&others).any(|lamp| matches!(lamp.beam, Some(Beam::Area { .. })));
+    let areas =
+        world.lamps.iter().chain(&others).any(|lamp| matches!(lamp.beam, Some(Beam::Area { .. })));
     let drawn = |lamps: Vec<Lamp>| {
         let mut picture = Picture::new(&World { lamps, ..world.clone() }, shift).by(renderer);
         picture.rays.shadows = !areas;

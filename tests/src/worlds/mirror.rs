@@ -23,7 +23,11 @@ struct Plane {
 impl Plane {
     fn reflection(&self) -> DMat3 {
         let n = self.normal;
-        DMat3::from_cols(DVec3::X - 2.0 * n.x * n, DVec3::Y - 2.0 * n.y * n, DVec3::Z - 2.0 * n.z * n)
+        DMat3::from_cols(
+            DVec3::X - 2.0 * n.x * n,
+            DVec3::Y - 2.0 * n.y * n,
+            DVec3::Z - 2.0 * n.z * n,
+        )
     }
 
     /// A camera behind the mirror, whose picture is reversed.
@@ -81,13 +85,15 @@ fn inertial(lamps: generate::Lamps) -> Recipe {
 
 /// As [`mirror_with_moving_lamps`], with bodies and lamps that accelerate, spin and run on orbits.
 pub fn accelerated_mirror(random: &mut Random) -> Outcome {
-    let recipe = Recipe { fastest: 0.7, lamps: generate::Lamps::Stated, surfaces: Surfaces::Mirrors };
+    let recipe =
+        Recipe { fastest: 0.7, lamps: generate::Lamps::Stated, surfaces: Surfaces::Mirrors };
     check_mirror(random, recipe, true)
 }
 
 fn check_mirror(random: &mut Random, recipe: Recipe, accelerates: bool) -> Outcome {
     let camera = camera(random);
-    let plane = Plane { normal: (random.direction() - 1.5 * camera.forward).normalize(), height: 0.0 };
+    let plane =
+        Plane { normal: (random.direction() - 1.5 * camera.forward).normalize(), height: 0.0 };
     let height = random.between(1.0, 3.0) - camera.event.truncate().dot(plane.normal);
     let plane = Plane { height, ..plane };
     let behind = plane.behind(&camera);
@@ -154,7 +160,12 @@ fn world_before(
     (bodies, lamps)
 }
 
-fn body_before(random: &mut Random, plane: &Plane, behind: &Camera, recipe: Recipe) -> Option<Body> {
+fn body_before(
+    random: &mut Random,
+    plane: &Plane,
+    behind: &Camera,
+    recipe: Recipe,
+) -> Option<Body> {
     let mut body = generate::body(random, behind, recipe);
     let velocity = plane.toward(body.velocity.unwrap_or_default());
     if body.velocity.is_some() {
@@ -168,8 +179,10 @@ fn body_before(random: &mut Random, plane: &Plane, behind: &Camera, recipe: Reci
         let event = generate::on_light_cone(behind, place, velocity);
         plane.distance(event.truncate()) > 0.1
     };
-    let between = |from: DVec3, to: DVec3| (0..=8).map(move |step| from.lerp(to, f64::from(step) / 8.0));
-    let mut pairs = body.vertices.iter().flat_map(|&from| body.vertices.iter().map(move |&to| (from, to)));
+    let between =
+        |from: DVec3, to: DVec3| (0..=8).map(move |step| from.lerp(to, f64::from(step) / 8.0));
+    let mut pairs =
+        body.vertices.iter().flat_map(|&from| body.vertices.iter().map(move |&to| (from, to)));
     pairs.all(|(from, to)| between(from, to).all(is_before)).then_some(body)
 }
 
@@ -208,7 +221,12 @@ fn lamp_before(
 }
 
 /// A body with a motion that never leads behind the mirror before the picture is taken.
-fn accelerated_before(random: &mut Random, plane: &Plane, behind: &Camera, mut body: Body) -> Option<Body> {
+fn accelerated_before(
+    random: &mut Random,
+    plane: &Plane,
+    behind: &Camera,
+    mut body: Body,
+) -> Option<Body> {
     accelerate_any(random, &mut body, behind);
     let points: Vec<DVec3> = body.vertices.clone();
     is_always_before(plane, behind, body.motion.as_ref()?, &points).then_some(body)

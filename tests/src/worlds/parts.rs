@@ -50,7 +50,8 @@ pub fn crops(random: &mut Random) -> Outcome {
     let [width, height] = [[size[0], left], [size[1], top]]
         .map(|[side, start]| 1 + random.below((side - start) as usize) as u32);
     let part = Picture { crop: Some([left, top, width, height]), ..picture }.draw()?;
-    let places = (0..height).flat_map(|row| (0..width).map(move |column| [left + column, top + row]));
+    let places =
+        (0..height).flat_map(|row| (0..width).map(move |column| [left + column, top + row]));
     let pairs: Vec<_> = places.map(|place| light_at(&whole, place)).zip(part.light()).collect();
     if pairs.iter().any(|(one, other)| one != other) {
         return Err(format!("a part has other bytes\n{}", part.picture.described()));
@@ -65,7 +66,8 @@ pub fn stereo(random: &mut Random) -> Outcome {
     let single = any_picture(random, &world);
     let distance = random.between(0.01, 6.0);
     let [width, height] = SIZE;
-    let both = Picture { stereo: Some(distance), size: [2 * width, height], ..single.clone() }.draw()?;
+    let both =
+        Picture { stereo: Some(distance), size: [2 * width, height], ..single.clone() }.draw()?;
     let mut n_lit = 0;
     for (eye, side) in [(0, -0.5), (1, 0.5)] {
         let camera = world.camera.displaced(side * distance * world.camera.right(), 0.0);
@@ -111,7 +113,9 @@ fn check_pixels(
         n_lit += usize::from(one.light()[0] != [0.0; 3]);
     }
     match others.first() {
-        Some(first) => Err(format!("{} pixels: {first}\n{}", others.len(), whole.picture.described())),
+        Some(first) => {
+            Err(format!("{} pixels: {first}\n{}", others.len(), whole.picture.described()))
+        }
         None => Ok(n_lit),
     }
 }
@@ -167,7 +171,8 @@ fn sight(camera: &Camera, picture: &Picture, [column, row]: [u32; 2]) -> Option<
             let (x, y) = (x - 0.5 * width, 0.5 * height - y);
             let (radius, edge) = (libm::hypot(x, y), 0.5 * width.min(height));
             let (sin, cos) = libm::sincos(0.5 * angle * radius / edge);
-            (radius < edge).then(|| (cos * forward + sin * (x * right + y * up) / radius, DVec3::ZERO))
+            (radius < edge)
+                .then(|| (cos * forward + sin * (x * right + y * up) / radius, DVec3::ZERO))
         }
         Lens::Cube => {
             let [middle, across, down] = match column / picture.size[1] {
@@ -194,8 +199,8 @@ pub fn looked_up(random: &mut Random) -> Outcome {
     let plain = Picture::new(&world, UNSHIFTED);
     let sky = Picture { lens: Lens::Panorama, size: SKY, ..plain.clone() }.draw()?;
     let texels = sky.light().iter().map(|&[red, green, blue]| [red, green, blue, 1.0]).collect();
-    let panorama =
-        Panorama::new(SKY, Texels::Light(texels), Extent::FULL).map_err(|error| error.to_string())?;
+    let panorama = Panorama::new(SKY, Texels::Light(texels), Extent::FULL)
+        .map_err(|error| error.to_string())?;
     let beta = random.in_ball(0.6);
     let Camera { forward, up, angle, .. } = world.camera;
     let in_scene = beta.x * world.camera.right() + beta.y * forward + beta.z * up;
@@ -219,7 +224,9 @@ pub fn looked_up(random: &mut Random) -> Outcome {
     let (traced, width) = (seen.light(), SIZE[0] as usize);
     // Where light changes little from pixel to pixel.
     let is_smooth = |at: usize| {
-        super::compare::are_around(at, width, traced.len(), |near| is_within(traced[at], traced[near], 0.2))
+        super::compare::are_around(at, width, traced.len(), |near| {
+            is_within(traced[at], traced[near], 0.2)
+        })
     };
     let (mut n_smooth, mut others) = (0, 0);
     for (at, pixel) in warped.pixels().iter().enumerate().filter(|(at, _)| is_smooth(*at)) {

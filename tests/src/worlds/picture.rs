@@ -21,7 +21,8 @@ pub const LIGHT_ERROR: f64 = 0.005;
 
 /// A picture of eight by eight pixels, as PFM.
 static TEXTURE: LazyLock<Arc<[u8]>> = LazyLock::new(|| {
-    let light = (0..8 * 8 * 3).flat_map(|at: u32| ((10 + at * 37 % 90) as f32 / 100.0).to_le_bytes());
+    let light =
+        (0..8 * 8 * 3).flat_map(|at: u32| ((10 + at * 37 % 90) as f32 / 100.0).to_le_bytes());
     b"PF\n8 8\n-1.0\n".iter().copied().chain(light).collect()
 });
 
@@ -226,7 +227,9 @@ impl Picture {
             let hues: Vec<f64> = values
                 .iter()
                 .filter_map(|value| match value {
-                    ColorValue::Hsv { tint: Tint::Hue(hue), saturation, .. } if *saturation > 0.0 => {
+                    ColorValue::Hsv { tint: Tint::Hue(hue), saturation, .. }
+                        if *saturation > 0.0 =>
+                    {
                         Some(*hue)
                     }
                     _ => None,
@@ -250,7 +253,11 @@ impl Picture {
     }
 
     /// For each face of a scene whether something holds of the colours of its corners.
-    fn of_pieces(&self, scene: &Scene, holds: impl Fn(&[ColorValue]) -> bool) -> Result<Vec<bool>, String> {
+    fn of_pieces(
+        &self,
+        scene: &Scene,
+        holds: impl Fn(&[ColorValue]) -> bool,
+    ) -> Result<Vec<bool>, String> {
         let colored = self.colored(scene.clone())?;
         let value = |corner: &VertexId| {
             let color = colored.vertices[corner.index()].color;
@@ -302,7 +309,9 @@ impl Picture {
             Renderer::Rays => {
                 format!("ugphoton {motion} {shift} {picture}{}", self.of_rays())
             }
-            Renderer::Exact => format!("uglorentz -sd 1 {motion} | ugrainbow -xc {shift} {picture}"),
+            Renderer::Exact => {
+                format!("uglorentz -sd 1 {motion} | ugrainbow -xc {shift} {picture}")
+            }
             Renderer::Pipe => {
                 let percent = 100.0 * self.light_error;
                 format!(
@@ -315,7 +324,9 @@ impl Picture {
 
     fn of_rays(&self) -> String {
         let mut words = format!(" -rd {} -rc {}", self.rays.depth, self.rays.cutoff);
-        for (is_given, word) in [(!self.rays.shadows, " --no-shadows"), (self.rays.fresnel, " --fresnel")] {
+        for (is_given, word) in
+            [(!self.rays.shadows, " --no-shadows"), (self.rays.fresnel, " --fresnel")]
+        {
             words += if is_given { word } else { "" };
         }
         if let Shutter::Film { distance } = self.rays.shutter {

@@ -42,7 +42,9 @@ impl Path {
     fn place(&self, time: f64) -> DVec3 {
         match *self {
             Self::Rests(place) => place,
-            Self::Orbits { at, center, rate } => center + DMat3::from_rotation_z(rate * time) * (at - center),
+            Self::Orbits { at, center, rate } => {
+                center + DMat3::from_rotation_z(rate * time) * (at - center)
+            }
             Self::Accelerates { at, by } if time > 0.0 => {
                 let passed = by.length() * time;
                 at + by.normalize() * (((1.0 + passed * passed).sqrt() - 1.0) / by.length())
@@ -160,7 +162,8 @@ fn add(random: &mut Random, row: usize, text: &mut String, points: &mut Vec<Poin
 }
 
 fn parse(text: &str) -> DVec3 {
-    let numbers: Vec<f64> = text.split(' ').map(|number| number.parse().expect("written above")).collect();
+    let numbers: Vec<f64> =
+        text.split(' ').map(|number| number.parse().expect("written above")).collect();
     DVec3::from_slice(&numbers)
 }
 
@@ -172,14 +175,19 @@ pub fn two_eyes(random: &mut Random) -> Outcome {
     }
     let mut worst: f64 = 0.0;
     for _ in 0..2 {
-        let (eye, time, velocity) = (random.in_cube(9.0), random.between(-9.0, 9.0), random.in_ball(0.9));
+        let (eye, time, velocity) =
+            (random.in_cube(9.0), random.between(-9.0, 9.0), random.in_ball(0.9));
         let events = events(&text, (eye, time, velocity))?;
         for point in &points {
-            let event = *events.get(&point.name).ok_or_else(|| format!("no {} in\n{text}", point.name))?;
+            let event =
+                *events.get(&point.name).ok_or_else(|| format!("no {} in\n{text}", point.name))?;
             let error = point.error(event) / (1.0 + event.length());
             if error.is_nan() || error > TOLERANCE {
                 let of = format!("seen from {eye} at {time} with {velocity}");
-                return Err(format!("{} is {error:e} off its world line, {of}\n{text}", point.name));
+                return Err(format!(
+                    "{} is {error:e} off its world line, {of}\n{text}",
+                    point.name
+                ));
             }
             worst = worst.max(error);
         }
@@ -188,29 +196,39 @@ pub fn two_eyes(random: &mut Random) -> Outcome {
 }
 
 /// The events, in the frame of the scene, at which light left the vertices, and events of lamps.
-fn events(text: &str, (eye, time, velocity): (DVec3, f64, DVec3)) -> Result<HashMap<String, Event>, String> {
+fn events(
+    text: &str,
+    (eye, time, velocity): (DVec3, f64, DVec3),
+) -> Result<HashMap<String, Event>, String> {
     let source = Source::new("world.ug", text);
     let mut scene = ugparse::read(&source, &Options::default(), None)
         .map_err(|found| found.worded().render(false))?
         .scene;
-    let options = MotionOptions { time, camera_velocity: Some(velocity), ..MotionOptions::default() };
+    let options =
+        MotionOptions { time, camera_velocity: Some(velocity), ..MotionOptions::default() };
     let camera = CameraOptions { eye: Some(eye), ..CameraOptions::default() };
     let placed = PlacedBodies::move_to_camera_frame(&mut scene, &options, &camera, [4, 3])
         .map_err(|error| error.to_string())?;
-    let in_scene = |event: Event| boost(velocity) * (event + DVec3::ZERO.extend(time)) + eye.extend(0.0);
+    let in_scene =
+        |event: Event| boost(velocity) * (event + DVec3::ZERO.extend(time)) + eye.extend(0.0);
     let mut events = HashMap::new();
-    for ((vertex, rest), body) in scene.vertices.iter().zip(placed.rest_positions(&scene)).zip(&placed.bodies)
+    for ((vertex, rest), body) in
+        scene.vertices.iter().zip(placed.rest_positions(&scene)).zip(&placed.bodies)
     {
         let motion = &placed.motions[body.index()];
         let here = Seen { t: 0.0, x: DVec3::ZERO };
         let seen = match motion.world_line() {
-            Some(line) => line.emission(rest, here).map_err(|error| format!("{error}\n{text}"))?.event.x,
+            Some(line) => {
+                line.emission(rest, here).map_err(|error| format!("{error}\n{text}"))?.event.x
+            }
             None => motion.seen(RestPosition(rest)).0,
         };
-        events.insert(scene.names.get(vertex.name).to_owned(), in_scene(seen.extend(-seen.length())));
+        events
+            .insert(scene.names.get(vertex.name).to_owned(), in_scene(seen.extend(-seen.length())));
     }
     for light in &scene.lights {
-        let (LightKind::Local { position, .. }, Some(body)) = (light.kind, light.motion.body()) else {
+        let (LightKind::Local { position, .. }, Some(body)) = (light.kind, light.motion.body())
+        else {
             continue;
         };
         let motion = &placed.motions[body.index()];

@@ -90,7 +90,8 @@ pub(super) fn check_pipe(random: &mut Random, world: &World) -> Outcome {
             })
     };
     let pairs: Vec<_> = one.light().into_iter().zip(light.clone()).enumerate().collect();
-    let pairs: Vec<_> = pairs.into_iter().filter(|(at, _)| is_smooth(*at)).map(|(_, pair)| pair).collect();
+    let pairs: Vec<_> =
+        pairs.into_iter().filter(|(at, _)| is_smooth(*at)).map(|(_, pair)| pair).collect();
     if pairs.is_empty() {
         return Ok(0);
     }

@@ -44,7 +44,8 @@ fn solid(random: &mut Random, event: Event, size: f64, velocity: Option<DVec3>) 
 }
 
 fn picture(random: &mut Random, world: &World) -> Picture {
-    let mut picture = Picture::new(world, *random.pick(&[SPECTRA, UNSHIFTED, by_law(Brightness::Report)]));
+    let mut picture =
+        Picture::new(world, *random.pick(&[SPECTRA, UNSHIFTED, by_law(Brightness::Report)]));
     picture.rays.fresnel = random.one_in(3);
     picture
 }
@@ -54,13 +55,17 @@ fn some_event(random: &mut Random, camera: &Camera, inside: bool) -> Event {
     if inside {
         camera.event
     } else {
-        generate::seen_event(camera, random.between(2.0, 8.0) * camera.forward + random.in_cube(1.5))
+        generate::seen_event(
+            camera,
+            random.between(2.0, 8.0) * camera.forward + random.in_cube(1.5),
+        )
     }
 }
 
 /// A solid of index 1, at rest and in motion, also around the eye.
 pub fn vacuum(random: &mut Random) -> Outcome {
-    let world = world(random, Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfaces::Mirrors });
+    let world =
+        world(random, Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfaces::Mirrors });
     let picture = picture(random, &world);
     let mut more = world.clone();
     for _ in 0..1 + random.below(2) {
@@ -108,7 +113,8 @@ pub fn nested(random: &mut Random) -> Outcome {
     (picture.rays.depth, picture.rays.cutoff) = (DEPTH / (2 * n_more as u32 + 1), 5.0 * CUTOFF);
     let short = picture.draw()?;
     let lights = one.light().into_iter().zip(other.light()).zip(short.light());
-    let pairs: Vec<_> = lights.filter(|(pair, short)| pair.0 == *short).map(|(pair, _)| pair).collect();
+    let pairs: Vec<_> =
+        lights.filter(|(pair, short)| pair.0 == *short).map(|(pair, _)| pair).collect();
     check(&pairs, [&one, &other])
 }
 
@@ -156,7 +162,8 @@ pub fn delay(random: &mut Random) -> Outcome {
     world.camera = camera;
     let (index, thickness) = (random.between(1.05, 2.0), random.between(0.3, 1.0));
     let entered = camera.displaced(NEAR * camera.forward, -NEAR).event;
-    let left = camera.displaced((NEAR + thickness) * camera.forward, -(NEAR + index * thickness)).event;
+    let left =
+        camera.displaced((NEAR + thickness) * camera.forward, -(NEAR + index * thickness)).event;
     if world.bodies.iter().any(|body| body.is_crossed([entered, left])) {
         return Ok(0);
     }
@@ -178,7 +185,8 @@ pub fn hollow(random: &mut Random) -> Outcome {
     world.camera = camera;
     let surface = clear(random.between(1.05, 1.6), 0.0);
     let velocity = (camera.velocity != DVec3::ZERO).then_some(camera.velocity);
-    let glass = Body { surface, ..solid(random, camera.event, random.clone().between(0.3, 1.0), velocity) };
+    let glass =
+        Body { surface, ..solid(random, camera.event, random.clone().between(0.3, 1.0), velocity) };
     if glass.round.is_some() {
         return Ok(0);
     }
@@ -190,7 +198,9 @@ pub fn hollow(random: &mut Random) -> Outcome {
     // One surface inside and outside.
     let first = solid.vertices.len();
     solid.vertices.extend(hollow.vertices);
-    solid.faces.extend(hollow.faces.iter().map(|face| face.iter().map(|corner| first + corner).collect()));
+    solid
+        .faces
+        .extend(hollow.faces.iter().map(|face| face.iter().map(|corner| first + corner).collect()));
     let mut picture = picture(random, &world);
     picture.rays.fresnel = false;
     check_pixel(&picture, &world, &hollowed)
@@ -205,10 +215,12 @@ pub fn under_water(random: &mut Random) -> Outcome {
     let outside = direction(random, &camera).normalize();
     // The surface is perpendicular to the view, and the eye just behind it.
     let across = outside - outside.dot(camera.forward) * camera.forward;
-    let inside =
-        across / index + (1.0 - across.length_squared() / (index * index)).max(0.0).sqrt() * camera.forward;
+    let inside = across / index
+        + (1.0 - across.length_squared() / (index * index)).max(0.0).sqrt() * camera.forward;
     let mut under = world.clone();
-    under.bodies.push(Body { surface: clear(index, 0.0), ..slab(&camera, [-1.0, SMALL], 1.0, false) });
+    under
+        .bodies
+        .push(Body { surface: clear(index, 0.0), ..slab(&camera, [-1.0, SMALL], 1.0, false) });
     under.camera = camera.looking(inside);
     world.camera = camera.looking(outside);
     let mut picture = picture(random, &world);

@@ -10,8 +10,14 @@ pub fn boost(beta: DVec3) -> DMat4 {
     let gamma = 1.0 / (1.0 - beta.length_squared()).sqrt();
     // (γ−1)/β² without a division by 0.
     let turned = gamma * gamma / (gamma + 1.0);
-    let column = |axis: DVec3| (axis + turned * beta.dot(axis) * beta).extend(gamma * beta.dot(axis));
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), (gamma * beta).extend(gamma))
+    let column =
+        |axis: DVec3| (axis + turned * beta.dot(axis) * beta).extend(gamma * beta.dot(axis));
+    DMat4::from_cols(
+        column(DVec3::X),
+        column(DVec3::Y),
+        column(DVec3::Z),
+        (gamma * beta).extend(gamma),
+    )
 }
 
 /// Another frame: events x of the old one are at `linear` x + `shift`.

@@ -58,7 +58,8 @@ pub fn unseen_bodies(random: &mut Random) -> Outcome {
         let size = if is_tiny { 1e-9 } else { random.between(0.5, 2.0) };
         let mut body = shape(random);
         body.vertices.iter_mut().for_each(|place| *place = at + size * *place);
-        body.velocity = velocity(random, 0.9).map(|velocity| velocity + DVec3::new(1e-3, 2e-3, 0.0));
+        body.velocity =
+            velocity(random, 0.9).map(|velocity| velocity + DVec3::new(1e-3, 2e-3, 0.0));
         if body.velocity.is_none() {
             body.velocity = Some(DVec3::new(0.3, 0.2, -0.1));
         }
@@ -141,8 +142,11 @@ fn definition(random: &mut Random, body: &Body) -> (String, Body) {
             let DMat3 { x_axis: x, y_axis: y, z_axis: z } = turn;
             of.vertices.iter_mut().for_each(|place| *place = turn.transpose() * *place);
             // Rows of the matrix for row vectors are the images of the axes.
-            let numbers: Vec<String> =
-                [x, y, z].iter().flat_map(|row| row.to_array()).map(|number| number.to_string()).collect();
+            let numbers: Vec<String> = [x, y, z]
+                .iter()
+                .flat_map(|row| row.to_array())
+                .map(|number| number.to_string())
+                .collect();
             format!("-M3 {}", numbers.join(" "))
         }
     };

@@ -188,7 +188,8 @@ impl World {
                 continue;
             }
             let (velocity, rest) = change.of_frame(body.velocity.unwrap_or_default());
-            body.velocity = (body.velocity.is_some() || velocity != DVec3::ZERO).then_some(velocity);
+            body.velocity =
+                (body.velocity.is_some() || velocity != DVec3::ZERO).then_some(velocity);
             body.vertices.iter_mut().for_each(|place| *place = rest.place(*place));
         }
         for lamp in &mut world.lamps {
@@ -275,7 +276,9 @@ impl World {
         for (row, lamp) in self.lamps.iter().enumerate() {
             all.extend(lamp.motion.iter().map(|motion| motion.text(&format!("l{row}"))));
         }
-        all.extend(self.lamps.iter().enumerate().map(|(row, lamp)| lamp.statements(row, self.anchor)));
+        all.extend(
+            self.lamps.iter().enumerate().map(|(row, lamp)| lamp.statements(row, self.anchor)),
+        );
         all.push(self.camera.statement(self.anchor));
         all.extend(self.sky.map(|turn| {
             let (z, y, x) = turn.to_euler(EulerRot::ZYX);
@@ -295,15 +298,17 @@ impl Body {
     pub fn is_crossed(&self, way: [Event; 2]) -> bool {
         let [from, to] = way.map(|event| rest_place(event, self.velocity.unwrap_or_default()));
         let volume = |a: DVec3, b: DVec3, c: DVec3| (a - from).dot((b - from).cross(c - from));
-        self.faces.iter().flat_map(|face| face.windows(2).map(|pair| [face[0], pair[0], pair[1]])).any(
-            |rows| {
+        self.faces
+            .iter()
+            .flat_map(|face| face.windows(2).map(|pair| [face[0], pair[0], pair[1]]))
+            .any(|rows| {
                 let [a, b, c] = rows.map(|row| self.vertices[row]);
                 let normal = (b - a).cross(c - a);
                 let sides = [volume(a, b, to), volume(b, c, to), volume(c, a, to)];
-                let is_through = sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
+                let is_through =
+                    sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
                 is_through && normal.dot(from - a) * normal.dot(to - a) < 0.0
-            },
-        )
+            })
     }
 
     fn write(&self, row: usize, anchor: DVec3, all: &mut Vec<String>) {
@@ -338,7 +343,8 @@ impl Body {
             None => velocity(self.velocity),
         };
         let corners = |face: &Vec<usize>| {
-            let corners: Vec<String> = face.iter().map(|corner| format!("b{row}_{corner}")).collect();
+            let corners: Vec<String> =
+                face.iter().map(|corner| format!("b{row}_{corner}")).collect();
             format!("({})", corners.join(" "))
         };
         let contours: Vec<String> = self.faces.iter().map(corners).collect();
@@ -391,7 +397,11 @@ impl Lamp {
             }
             None => {}
         }
-        text + &self.motion.as_ref().map_or_else(|| velocity(self.velocity), |_| format!(" <l{row}>")) + ";\n"
+        text + &self
+            .motion
+            .as_ref()
+            .map_or_else(|| velocity(self.velocity), |_| format!(" <l{row}>"))
+            + ";\n"
     }
 }
 
@@ -412,7 +422,9 @@ impl Camera {
 /// Changes the frame of a motion; returns the turn of the coordinates of its body.
 fn boosted(motion: &mut Statement, change: &Change) -> DMat3 {
     assert_eq!(change.shift, Event::ZERO, "own times stay");
-    let Path::Free { velocity, .. } = motion.path else { panic!("a motion of the frame of the scene") };
+    let Path::Free { velocity, .. } = motion.path else {
+        panic!("a motion of the frame of the scene")
+    };
     let (velocity, rest) = change.of_frame(velocity);
     *motion = motion.boosted(velocity, rest.turn);
     rest.turn

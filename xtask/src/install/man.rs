@@ -19,10 +19,12 @@ pub fn page(manual: &Manual) -> String {
         page.section("COMMANDS");
         for command in &manual.commands {
             page.tagged(&bold(&command.usage), &format!("{}.", command.about));
-            let own =
-                command.options().filter(|option| manual.options().all(|other| other.names != option.names));
-            let own: Vec<String> =
-                own.map(|option| format!("{}: {}.", option.names.join(", "), option.about)).collect();
+            let own = command
+                .options()
+                .filter(|option| manual.options().all(|other| other.names != option.names));
+            let own: Vec<String> = own
+                .map(|option| format!("{}: {}.", option.names.join(", "), option.about))
+                .collect();
             own.iter().for_each(|text| page.continued(text));
         }
     }
@@ -44,7 +46,10 @@ pub fn overview(manuals: &[Manual]) -> String {
     let mut page = Page::new("ugtools", 7, DATE, version);
     let row = |manual: &Manual| format!("| **{}**(1) | {}. |", manual.name, manual.about);
     let programs: Vec<String> = manuals.iter().map(row).collect();
-    markdown::add(&mut page, &include_str!("ugtools.md").replace("@PROGRAMS@", &programs.join("\n")));
+    markdown::add(
+        &mut page,
+        &include_str!("ugtools.md").replace("@PROGRAMS@", &programs.join("\n")),
+    );
     add_exit_status(&mut page);
     page.section("SEE ALSO");
     let names: Vec<String> = manuals.iter().map(|manual| format!("{}(1)", manual.name)).collect();
@@ -56,7 +61,8 @@ pub fn overview(manuals: &[Manual]) -> String {
 /// The page `unigrafix(5)`: the scene language, from its page in the documentation.
 pub fn language(version: &str) -> String {
     let mut page = Page::new("unigrafix", 5, DATE, version);
-    page.section("NAME").paragraph("unigrafix - the language of scenes that the ugtools read and write");
+    page.section("NAME")
+        .paragraph("unigrafix - the language of scenes that the ugtools read and write");
     page.section("DESCRIPTION");
     markdown::add(&mut page, include_str!("../../../docs/unigrafix.md"));
     page.section("SEE ALSO").paragraph("ugparse(1), ugtools(7)");
@@ -73,7 +79,10 @@ fn add_option(page: &mut Page, option: &Entry) {
         "" => String::new(),
         default => format!(" Default: {default}."),
     };
-    page.tagged(&format!("{}{values}", names.join(", ")), &format!("{}.{default}", option.effect()));
+    page.tagged(
+        &format!("{}{values}", names.join(", ")),
+        &format!("{}.{default}", option.effect()),
+    );
     option.details.iter().for_each(|text| page.continued(text));
     for (word, meaning) in option.words.iter().filter(|(_, meaning)| !meaning.is_empty()) {
         page.continued(&format!("{word}: {meaning}."));

@@ -123,7 +123,11 @@ impl Writer<'_> {
         let cells = table.head.iter().skip(1).zip(cells).enumerate();
         let told: Vec<String> = cells
             .filter(|(_, (_, cell))| !cell.is_empty())
-            .map(|(idx, (head, cell))| if idx == 0 { cell.clone() } else { format!("{head}: {cell}") })
+            .map(
+                |(idx, (head, cell))| {
+                    if idx == 0 { cell.clone() } else { format!("{head}: {cell}") }
+                },
+            )
             .collect();
         self.page.escaped_tagged(tag, &told.join("; "));
     }

@@ -87,7 +87,9 @@ pub fn write(out: &mut impl Write, args: &Args, path: Option<&OsStr>) -> io::Res
     let mut files: Vec<(String, Content)> = manuals()
         .map(|manual| (format!("bin/{}", manual.name), Content::Of(programs.join(&manual.name))))
         .into();
-    files.extend(documents().into_iter().map(|(name, text)| (format!("share/{name}"), Content::Text(text))));
+    files.extend(
+        documents().into_iter().map(|(name, text)| (format!("share/{name}"), Content::Text(text))),
+    );
     files.extend(
         pages(scenes::root())?
             .into_iter()
@@ -279,11 +281,12 @@ mod tests {
 
     /// The files and folders below a folder.
     fn below(folder: &Path) -> Vec<PathBuf> {
-        let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+        let entries =
+            fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
         entries
-            .flat_map(
-                |path| if path.is_dir() { [vec![path.clone()], below(&path)].concat() } else { vec![path] },
-            )
+            .flat_map(|path| {
+                if path.is_dir() { [vec![path.clone()], below(&path)].concat() } else { vec![path] }
+            })
             .collect()
     }
 
@@ -298,7 +301,10 @@ mod tests {
             assert_eq!(listed.lines().count(), 10 + 2 + 10 * 4 + n_pages + 1, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
         }
-        assert_eq!(fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"), "ugrainbow");
+        assert_eq!(
+            fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"),
+            "ugrainbow"
+        );
         assert_eq!(below(&to.path().join("bin")).len(), 10);
     }
 
@@ -310,12 +316,18 @@ mod tests {
         let mut n_links = 0;
         for page in pages.iter().filter(|page| page.ends_with(".md")) {
             let text = fs::read_to_string(root.join(page)).expect("a page");
-            let links = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#', ' ']).next());
+            let links =
+                text.split("](").skip(1).filter_map(|rest| rest.split([')', '#', ' ']).next());
             for link in links.filter(|link| !link.is_empty() && !link.contains(':')) {
                 let file = root.join(page).parent().expect("a folder").join(link);
-                let file = fs::canonicalize(&file).unwrap_or_else(|error| panic!("{page}: {link}: {error}"));
+                let file = fs::canonicalize(&file)
+                    .unwrap_or_else(|error| panic!("{page}: {link}: {error}"));
                 let root = fs::canonicalize(root).expect("a folder");
-                let name = file.strip_prefix(&root).expect("a file of the repository").display().to_string();
+                let name = file
+                    .strip_prefix(&root)
+                    .expect("a file of the repository")
+                    .display()
+                    .to_string();
                 assert!(pages.contains(&name) || file.is_dir(), "{page}: {link} is not installed");
                 n_links += 1;
             }
@@ -331,7 +343,10 @@ mod tests {
             remove(&mut listed, &UninstallArgs { prefix: to.path().to_owned() }).map(|()| listed)
         };
         let error = remove().expect_err("nothing is installed").to_string();
-        assert!(error.starts_with("nothing was installed in ") && error.contains("installed.txt"), "{error}");
+        assert!(
+            error.starts_with("nothing was installed in ") && error.contains("installed.txt"),
+            "{error}"
+        );
 
         installed(to.path());
         installed(to.path());
@@ -364,8 +379,10 @@ mod tests {
     fn only_paths_below_the_prefix_are_removed() {
         let to = tempfile::tempdir().expect("a folder");
         for line in ["../outside", "/etc/none", "bin/../../outside", ""] {
-            replace(&to.path().join(record::FILE), |new| fs::write(new, format!("bin/a\n{line}\n")))
-                .expect("a file");
+            replace(&to.path().join(record::FILE), |new| {
+                fs::write(new, format!("bin/a\n{line}\n"))
+            })
+            .expect("a file");
             let args = UninstallArgs { prefix: to.path().to_owned() };
             let error = remove(&mut Vec::new(), &args).expect_err("refused").to_string();
             assert!(error.ends_with("is not a path below the prefix"), "{error}");
@@ -395,7 +412,8 @@ mod tests {
         for (name, _) in documents().iter().filter(|(name, _)| name.starts_with("man/")) {
             let page = folder.path().join(name);
             let run = |options: &[&str]| {
-                let output = Command::new("mandoc").args(options).arg(&page).output().expect("mandoc");
+                let output =
+                    Command::new("mandoc").args(options).arg(&page).output().expect("mandoc");
                 (output.status.success(), String::from_utf8(output.stdout).expect("text"))
             };
             assert_eq!(run(&["-T", "lint", "-W", "warning"]), (true, String::new()), "{name}");
@@ -431,7 +449,10 @@ mod tests {
     #[test]
     fn man_pages_have_every_option() {
         for manual in manuals() {
-            let page = man::page(&manual).replace("\\-", "-").replace("\\(aq", "'").replace("\\[u03B2]", "β");
+            let page = man::page(&manual)
+                .replace("\\-", "-")
+                .replace("\\(aq", "'")
+                .replace("\\[u03B2]", "β");
             for name in manual.options().flat_map(|option| &option.names) {
                 assert!(page.contains(&format!("\\fB{name}\\fR")), "{name}: {page}");
             }
@@ -475,8 +496,10 @@ mod tests {
             let script = format!("source {}; complete -C '{line}'", file.display());
             let found = printed("fish", &["--no-config"], folder.path(), &script);
             // Words, without their explanations; fish escapes the blank of the file.
-            let found: Vec<String> =
-                found.lines().filter_map(|line| Some(line.split('\t').next()?.replace('\\', ""))).collect();
+            let found: Vec<String> = found
+                .lines()
+                .filter_map(|line| Some(line.split('\t').next()?.replace('\\', "")))
+                .collect();
             assert_eq!(found, expected, "{line}");
         }
     }

@@ -25,7 +25,8 @@ impl Record {
             !line.is_empty() && parts.into_iter().all(|part| matches!(part, Component::Normal(_)))
         };
         if let Some(line) = text.lines().find(|line| !is_below(line)) {
-            let message = format!("{}: `{line}` is not a path below the prefix", prefix.join(FILE).display());
+            let message =
+                format!("{}: `{line}` is not a path below the prefix", prefix.join(FILE).display());
             return Err(io::Error::new(ErrorKind::InvalidData, message));
         }
         Ok(Self(text.lines().map(str::to_owned).collect()))
@@ -53,19 +54,27 @@ pub fn remove(out: &mut impl Write, prefix: &Path) -> io::Result<()> {
         return Err(io::Error::new(ErrorKind::NotFound, message));
     }
     // The record goes last, so an interrupted removal can be repeated.
-    let files = paths.iter().filter(|path| !path.ends_with('/') && *path != FILE).map(String::as_str);
+    let files =
+        paths.iter().filter(|path| !path.ends_with('/') && *path != FILE).map(String::as_str);
     for file in files.chain([FILE]).map(|file| prefix.join(file)) {
         match fs::remove_file(&file) {
             Err(error) if error.kind() == ErrorKind::NotFound => {}
-            Err(error) => return Err(io::Error::new(error.kind(), format!("{}: {error}", file.display()))),
+            Err(error) => {
+                return Err(io::Error::new(error.kind(), format!("{}: {error}", file.display())));
+            }
             Ok(()) => writeln!(out, "{}", file.display())?,
         }
     }
     // Folders sort before what is in them.
-    for folder in paths.iter().rev().filter(|path| path.ends_with('/')).map(|folder| prefix.join(folder)) {
+    for folder in
+        paths.iter().rev().filter(|path| path.ends_with('/')).map(|folder| prefix.join(folder))
+    {
         match fs::remove_dir(&folder) {
-            Err(error) if [ErrorKind::NotFound, ErrorKind::DirectoryNotEmpty].contains(&error.kind()) => {}
-            Err(error) => return Err(io::Error::new(error.kind(), format!("{}: {error}", folder.display()))),
+            Err(error)
+                if [ErrorKind::NotFound, ErrorKind::DirectoryNotEmpty].contains(&error.kind()) => {}
+            Err(error) => {
+                return Err(io::Error::new(error.kind(), format!("{}: {error}", folder.display())));
+            }
             Ok(()) => writeln!(out, "{}", folder.display())?,
         }
     }

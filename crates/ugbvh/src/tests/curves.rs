@@ -81,11 +81,16 @@ fn sampled(mesh: &Mesh, curve: &Turning, range: &Range<f64>) -> Vec<Oracle> {
             let (mut from, mut to) = (at(idx), at(idx + 1));
             for _ in 0..60 {
                 let middle = 0.5 * (from + to);
-                if (height(curve.at(middle).0) < 0.0) == (low < 0.0) { from = middle } else { to = middle }
+                if (height(curve.at(middle).0) < 0.0) == (low < 0.0) {
+                    from = middle
+                } else {
+                    to = middle
+                }
             }
             let point = curve.at(from).0;
-            let area =
-                |p: DVec3, q: DVec3| normal.dot((p - point).cross(q - point)) / normal.length_squared();
+            let area = |p: DVec3, q: DVec3| {
+                normal.dot((p - point).cross(q - point)) / normal.length_squared()
+            };
             let least = area(b, c).min(area(c, a)).min(area(a, b));
             all.push((from, row as u32, least));
         }
@@ -121,7 +126,8 @@ fn hits_are_those_of_sampling() {
     for round in 0..60 {
         let mesh = if round % 3 == 0 { sphere(6, 8) } else { soup(&mut random, 60) };
         let mesh = mesh.mapped(*random.pick(&[1.0, 1e-3, 300.0]), DVec3::ZERO);
-        let size = mesh.positions.iter().fold(0.0_f64, |size, position| size.max(position.length()));
+        let size =
+            mesh.positions.iter().fold(0.0_f64, |size, position| size.max(position.length()));
         let bvh = mesh.build();
         for _ in 0..10 {
             let curve = curve(&mut random, size, 3.0);
@@ -130,8 +136,11 @@ fn hits_are_those_of_sampling() {
             let expected = sampled(&mesh, &curve, &range);
             // Slivers and crossings at edges are uncertain.
             let is_clear = |least: f64| least.abs() > 1e-10 * size;
-            for &(t, row, _) in expected.iter().filter(|&&(_, _, least)| least > 0.0 && is_clear(least)) {
-                let [a, b, c] = mesh.triangles[row as usize].map(|row| mesh.positions[row as usize]);
+            for &(t, row, _) in
+                expected.iter().filter(|&&(_, _, least)| least > 0.0 && is_clear(least))
+            {
+                let [a, b, c] =
+                    mesh.triangles[row as usize].map(|row| mesh.positions[row as usize]);
                 let hit = found.iter().find(|hit| hit.triangle == row && (hit.t - t).abs() < 1e-7);
                 let hit = hit.unwrap_or_else(|| panic!("{curve:?} {t} {row}: {found:?}"));
                 let place = a + (b - a) * hit.u + (c - a) * hit.v;
@@ -140,15 +149,20 @@ fn hits_are_those_of_sampling() {
             }
             for hit in &found {
                 let is_known = |&&(t, row, least): &&Oracle| {
-                    row == hit.triangle && (hit.t - t).abs() < 1e-6 && (least > 0.0 || !is_clear(least))
+                    row == hit.triangle
+                        && (hit.t - t).abs() < 1e-6
+                        && (least > 0.0 || !is_clear(least))
                 };
                 // Sampling misses crossings that are close to each other.
                 let place = curve.at(hit.t).0;
-                let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|row| mesh.positions[row as usize]);
-                let is_there = (a + (b - a) * hit.u + (c - a) * hit.v - place).length() < 1e-9 * size;
+                let [a, b, c] =
+                    mesh.triangles[hit.triangle as usize].map(|row| mesh.positions[row as usize]);
+                let is_there =
+                    (a + (b - a) * hit.u + (c - a) * hit.v - place).length() < 1e-9 * size;
                 assert!(is_there || expected.iter().any(|row| is_known(&row)), "{curve:?} {hit:?}");
-                n_several +=
-                    usize::from(found.iter().any(|other| other.triangle == hit.triangle && other.t != hit.t));
+                n_several += usize::from(
+                    found.iter().any(|other| other.triangle == hit.triangle && other.t != hit.t),
+                );
             }
             let first = closest(&bvh, &curve, range.clone());
             assert_eq!(
@@ -220,7 +234,13 @@ fn exact_edges_do_not_leak() {
             for rate in [0.0, 0.25, -2.0] {
                 let origin = 0.5 * dvec3(f64::from(x), f64::from(y), 0.0);
                 // It meets the plane at parameter 0.
-                let curve = Turning { origin, direction: DVec3::Z, push: DVec3::ZERO, axis: DVec3::Z, rate };
+                let curve = Turning {
+                    origin,
+                    direction: DVec3::Z,
+                    push: DVec3::ZERO,
+                    axis: DVec3::Z,
+                    rate,
+                };
                 let hits = visited(&bvh, &curve, -1.0..1.5);
                 assert_eq!(hits.len(), 1, "{curve:?}: {hits:?}");
                 assert!(hits[0].t.abs() < 1e-12, "{hits:?}");
@@ -268,7 +288,8 @@ impl Curve for Counted<'_> {
 /// A curve in the plane of triangles, which are seen edge-on, is not halved without an end.
 #[test]
 fn curves_in_the_plane_of_a_triangle_end() {
-    let corners = [dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(-1.0, 0.0, 0.0), dvec3(0.0, -1.0, 0.0)];
+    let corners =
+        [dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(-1.0, 0.0, 0.0), dvec3(0.0, -1.0, 0.0)];
     let triangles = [[0, 1, 2], [0, 2, 3]];
     // The same with rounding errors.
     let tilt = DQuat::from_axis_angle(dvec3(0.6, 0.0, 0.8), 0.7);

@@ -45,8 +45,12 @@ fn deep_hierarchies_have_all_hits() {
 fn a_packet_has_the_hits_of_its_rays() {
     let mut random = Random(7);
     let mut n_hits = 0;
-    let meshes =
-        [sphere(12, 24), sphere(30, 60), soup(&mut random, 300), sphere(5, 7).mapped(1e-300, DVec3::ZERO)];
+    let meshes = [
+        sphere(12, 24),
+        sphere(30, 60),
+        soup(&mut random, 300),
+        sphere(5, 7).mapped(1e-300, DVec3::ZERO),
+    ];
     for mesh in meshes {
         let bvh = mesh.build();
         let size = bvh.bounds().map_or(1.0, |(low, high)| (high - low).max_element());
@@ -60,8 +64,9 @@ fn a_packet_has_the_hits_of_its_rays() {
             };
             let width = *random.pick(&[0.0, 0.0, 0.0, 1e-3, 0.02, 0.3, 2.0]) * size;
             let n = if width == 0.0 { 2 } else { *random.pick(&[1, 5, 64, 64, 100]) };
-            let mut directions: Vec<DVec3> =
-                (0..n).map(|_| (toward + random.in_cube(width)) * *random.pick(&[1.0, 1.0, 0.5])).collect();
+            let mut directions: Vec<DVec3> = (0..n)
+                .map(|_| (toward + random.in_cube(width)) * *random.pick(&[1.0, 1.0, 0.5]))
+                .collect();
             if random.one_in(10) {
                 directions[n / 2] = *random.pick(&[DVec3::NAN, DVec3::ZERO, DVec3::INFINITY]);
             }

@@ -47,7 +47,8 @@ fn mixtures_of_light_shift_as_the_mean_of_hues() {
         v d 9 0 0 g; v e 10 1 0 g; v f 9 1 1 g; f (d e f);";
     let [still, moving] = [0.0, 0.1].map(|speed| colour(text, &moving(speed, 0.0, 0.0)).0);
     for (mixture, green) in [("a", "d"), ("b", "e"), ("c", "f")] {
-        let [(_, value, hue, saturation), (_, v, h, s)] = [mixture, green].map(|name| of(&moving, name));
+        let [(_, value, hue, saturation), (_, v, h, s)] =
+            [mixture, green].map(|name| of(&moving, name));
         assert!((value - v).abs() + (hue - h).abs() + (saturation - s).abs() < 1e-9, "{hue} {h}");
     }
     assert_eq!(of(&still, "a"), ("m".to_string(), 0.7, 0.0, 0.7));
@@ -64,14 +65,19 @@ fn at_rest_the_farthest_colours_stay() {
 /// Time and memory of the light are lights times vertices, which has a limit.
 #[test]
 fn lights_times_vertices_are_limited() {
-    let tiles = "def t; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f (a b c d); end; a (t) 2000 -tx 1;";
+    let tiles =
+        "def t; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f (a b c d); end; a (t) 2000 -tx 1;";
     let text = |n_lights| format!("{tiles} {}", "l 0.1 0 0 1;".repeat(n_lights));
     let lit = |n_lights| {
-        apply(parsed("t.ug", text(n_lights)), &Config { light: true, ..Config::default() }).map(drop)
+        apply(parsed("t.ug", text(n_lights)), &Config { light: true, ..Config::default() })
+            .map(drop)
     };
     assert!(lit(1).is_ok());
     let error = lit(20_000).unwrap_err().words();
-    assert!(error.starts_with("-li computes 20000 lights at 8000 vertices, more than 134217728"), "{error}");
+    assert!(
+        error.starts_with("-li computes 20000 lights at 8000 vertices, more than 134217728"),
+        "{error}"
+    );
 }
 
 /// Renderers refuse colours that depend on an eye other than that of the camera.
@@ -85,7 +91,10 @@ fn the_eye_of_the_colours_is_that_of_the_camera() {
     ] {
         let (scene, _) = colour(&format!("{SCENE} {camera}"), &moving(velocity, 0.0, 0.0));
         assert_eq!(scene.camera().and_then(|camera| camera.eye), expected, "{camera} {velocity}");
-        assert_eq!(scene.stage.seen_geometry().map(|seen| seen.eye), expected.filter(|_| velocity != 0.0));
+        assert_eq!(
+            scene.stage.seen_geometry().map(|seen| seen.eye),
+            expected.filter(|_| velocity != 0.0)
+        );
     }
 }
 
@@ -115,7 +124,8 @@ fn the_iris_leaves_lights_alone() {
     let text = format!(
         "{SCENE} c pale 0.8; f (a b c) grey <0 0 0>; l 0.3; l sun 0.7 0 0 1 0 pale; l sky 0.2 0 1 0 0 grey;"
     );
-    let (scene, notes) = colour(&text, &Config { iris: true, keep: false, ..moving(-0.8, 0.0, 0.0) });
+    let (scene, notes) =
+        colour(&text, &Config { iris: true, keep: false, ..moving(-0.8, 0.0, 0.0) });
     assert_eq!(notes, ["max intensity is 1.50, scaled to 1.0"]);
     let value = |row: usize| match scene.colors[row].value {
         ColorValue::Hsv { value, .. } => value,
@@ -125,17 +135,24 @@ fn the_iris_leaves_lights_alone() {
         scene.lights.iter().filter_map(|light| light.color).map(|id| value(id.index())).collect();
     assert_eq!(lights, [0.8, 0.4]);
     // Green and the resting grey, in which nothing else is changed.
-    let of_vertices: Vec<f64> =
-        scene.vertices.iter().filter_map(|vertex| vertex.color).map(|id| value(id.index())).collect();
+    let of_vertices: Vec<f64> = scene
+        .vertices
+        .iter()
+        .filter_map(|vertex| vertex.color)
+        .map(|id| value(id.index()))
+        .collect();
     assert!(of_vertices.iter().any(|value| (value - 1.0).abs() < 1e-12), "{of_vertices:?}");
     assert!(of_vertices.iter().any(|value| (value - 0.4 / 1.5).abs() < 1e-12), "{of_vertices:?}");
 }
 
 #[test]
 fn the_laws_are_powers_of_d() {
-    for (law, power) in
-        [(Brightness::Report, 1), (Brightness::Photon, 3), (Brightness::Bolometric, 4), (Brightness::None, 0)]
-    {
+    for (law, power) in [
+        (Brightness::Report, 1),
+        (Brightness::Photon, 3),
+        (Brightness::Bolometric, 4),
+        (Brightness::None, 0),
+    ] {
         // D = 0.5 for the receding rose, so nothing is clipped.
         let (scene, _) =
             colour(SCENE, &Config { shift: ColorShift::hues(true, law), ..moving(-0.6, 0.0, 0.0) });
@@ -179,8 +196,10 @@ fn the_iris_scales_linear_light() {
 
 #[test]
 fn teaching_switches_leave_the_other_alone() {
-    let shifted = Config { shift: ColorShift::hues(true, Brightness::None), ..moving(-0.3, 0.0, 0.0) };
-    let dimmed = Config { shift: ColorShift::hues(false, Brightness::Report), ..moving(-0.3, 0.0, 0.0) };
+    let shifted =
+        Config { shift: ColorShift::hues(true, Brightness::None), ..moving(-0.3, 0.0, 0.0) };
+    let dimmed =
+        Config { shift: ColorShift::hues(false, Brightness::Report), ..moving(-0.3, 0.0, 0.0) };
     let both = colour(SCENE, &moving(-0.3, 0.0, 0.0)).0;
     for vertex in ["a", "b", "d", "g", "i"] {
         let (_, value, hue, saturation) = of(&both, vertex);
@@ -265,7 +284,8 @@ fn colours_mix_or_stay_apart() {
 
 #[test]
 fn wires_keep_their_colour_beside_faces() {
-    let text = "c pale 0.7 200 0.3; c line 1 55 0.9; c edge 1 10; v a -1 7 -1; v b 1 7 -1; v c 1 7 1;
+    let text =
+        "c pale 0.7 200 0.3; c line 1 55 0.9; c edge 1 10; v a -1 7 -1; v b 1 7 -1; v c 1 7 1;
         f (a b c) pale; w (a b c) line; w (a c) edge;";
     let scene = colour(text, &moving(0.1, 0.0, 0.0)).0;
     for (wire, base) in scene.wires.iter().zip(["line#", "edge#"]) {

@@ -13,7 +13,8 @@ use ugscene::Scene;
 
 /// A scene with its colours as seen, written and read again, and the notes.
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
-    let (scene, notes) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
+    let (scene, notes) =
+        apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
     // `moving` gives velocities to scenes with positions as seen that state none.
     let others = notes.iter().filter(|note| **note != ugdoppler::Note::TakenAsSeen);
     (parsed("out.ug", ugparse::write(&scene)), others.map(Words::words).collect())

@@ -4,7 +4,9 @@ use glam::DVec3;
 use ugdoppler::Config;
 use uglight::ColorShift;
 use ugphysics::spectrum::Spectrum;
-use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
+use ugphysics::{
+    Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb,
+};
 use ugscene::{ColorValue, Scene, Tint};
 
 use crate::{colour, parsed};
@@ -47,7 +49,13 @@ pub fn ribbon(colors: &str, name: &str) -> String {
     for k in 0..n {
         let angle = std::f64::consts::PI * (f64::from(k) + 0.5) / f64::from(n);
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        text += &format!("v a{k} {} {} 0; v b{k} {} {} 0;\n", 9.0 * cos, 9.0 * sin, 10.0 * cos, 10.0 * sin);
+        text += &format!(
+            "v a{k} {} {} 0; v b{k} {} {} 0;\n",
+            9.0 * cos,
+            9.0 * sin,
+            10.0 * cos,
+            10.0 * sin
+        );
     }
     for k in 1..n {
         text += &format!("f (a{} a{k} b{k}) {name};\n", k - 1);
@@ -98,7 +106,10 @@ fn a_black_body_seen_with_d_is_one_at_d_times_t() {
                 );
                 let (sum, whole) = (found.iter().sum::<f64>(), expected.iter().sum::<f64>());
                 for (a, b) in found.iter().zip(expected).take(2) {
-                    assert!((a / sum - b / whole).abs() <= of_chromaticity, "{kelvin} K, D = {doppler}");
+                    assert!(
+                        (a / sum - b / whole).abs() <= of_chromaticity,
+                        "{kelvin} K, D = {doppler}"
+                    );
                 }
             }
             assert!(least < 0.102 && most > 9.8, "D from {least} to {most}");
@@ -113,7 +124,9 @@ fn reuse_keeps_its_tolerance_and_saves_colours() {
     let mut n_before = exact.colors.len();
     for tolerance in [0.1, 1.0, 5.0] {
         let near = colour(&text, &Config { tolerance, ..moving(0.6, 0.0, 0.0) }).0;
-        for vertex in (0..near.vertices.len()).filter(|&vertex| near.vertices[vertex].color.is_some()) {
+        for vertex in
+            (0..near.vertices.len()).filter(|&vertex| near.vertices[vertex].color.is_some())
+        {
             // Between the points of the table the curve bends a little.
             check(xyz(&near, vertex), xyz(&exact, vertex), tolerance / 100.0 * 1.1 + 1e-5);
         }
@@ -146,7 +159,8 @@ fn teaching_switches_leave_out_one_factor_each() {
 #[test]
 fn colours_that_meet_are_added_by_angle() {
     // At `a` the red triangle has 90 degrees, the lamp 45.
-    let text = "c_rgb red 0.8 0.1 0.1; c_bb lamp 3000 2; v a 9 0 0; v b 9 1 0; v c 9 0 1; v d 9 -1 1;
+    let text =
+        "c_rgb red 0.8 0.1 0.1; c_bb lamp 3000 2; v a 9 0 0; v b 9 1 0; v c 9 0 1; v d 9 -1 1;
         f (a b c) red; f (a c d) lamp;";
     let (scene, _) = colour(text, &moving(-0.3, 0.0, 0.0));
     let doppler = doppler_at(DVec3::new(9.0, 0.0, 0.0), moving(-0.3, 0.0, 0.0).velocity);
@@ -191,21 +205,33 @@ fn intensities_above_one() {
 
     // Hues keep their values, too, if asked.
     let text = ahead_and_behind("c white 1;", "white");
-    let config =
-        Config { keep: true, shift: ColorShift::default(), tolerance: 0.0, ..moving(-0.6, 0.0, 0.0) };
+    let config = Config {
+        keep: true,
+        shift: ColorShift::default(),
+        tolerance: 0.0,
+        ..moving(-0.6, 0.0, 0.0)
+    };
     let (scene, notes) = colour(&text, &config);
     assert_eq!(notes, ["max intensity is 2.00, kept for the renderer; -ir scales it to 1.0"]);
     let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
-    assert!(matches!(value, ColorValue::Hsv { value, .. } if (value - 2.0).abs() < 1e-12), "{value:?}");
+    assert!(
+        matches!(value, ColorValue::Hsv { value, .. } if (value - 2.0).abs() < 1e-12),
+        "{value:?}"
+    );
 }
 
 #[test]
 fn without_spectra_black_bodies_have_their_hue_at_rest() {
     let text = ahead_and_behind("c_bb glow 3000 0.3;", "glow");
-    let (scene, notes) = colour(&text, &Config { shift: ColorShift::default(), ..moving(0.0, 0.0, 0.0) });
+    let (scene, notes) =
+        colour(&text, &Config { shift: ColorShift::default(), ..moving(0.0, 0.0, 0.0) });
     assert!(notes[0].contains("(colour `glow`): `ugdoppler -sp` shifts them"), "{notes:?}");
-    assert_eq!(scene.names.get(scene.colors[scene.vertices[0].color.unwrap().index()].name), "glow");
-    let (scene, _) = colour(&text, &Config { shift: ColorShift::default(), ..moving(-0.1, 0.0, 0.0) });
+    assert_eq!(
+        scene.names.get(scene.colors[scene.vertices[0].color.unwrap().index()].name),
+        "glow"
+    );
+    let (scene, _) =
+        colour(&text, &Config { shift: ColorShift::default(), ..moving(-0.1, 0.0, 0.0) });
     let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
     // Orange turns yellow: its one wavelength is shifted, not its spectrum.
     let is_yellow = |tint| matches!(tint, Tint::Hue(hue) if (40.0..100.0).contains(&hue));
@@ -224,12 +250,16 @@ fn colours_no_surface_has_are_brought_toward_grey() {
 
 #[test]
 fn extreme_speeds_stay_finite() {
-    let colors = "c_bb cold 3; c_bb hot 1e9 1e9; c_rgb red 0.9 0.1 0.1; c_spd line 588 0 589 1 590 0;";
+    let colors =
+        "c_bb cold 3; c_bb hot 1e9 1e9; c_rgb red 0.9 0.1 0.1; c_spd line 588 0 589 1 590 0;";
     for name in ["cold", "hot", "red", "line"] {
         for beta in [0.999999, -0.9999999999] {
             let (scene, _) = colour(&ahead_and_behind(colors, name), &moving(beta, 0.0, 0.0));
             for vertex in ["a", "b", "d", "f"] {
-                assert!(named(&scene, vertex).iter().all(|part| *part >= 0.0 && part.is_finite()), "{name}");
+                assert!(
+                    named(&scene, vertex).iter().all(|part| *part >= 0.0 && part.is_finite()),
+                    "{name}"
+                );
             }
         }
     }

@@ -223,7 +223,9 @@ fn paint_ops(figure: &Figure<GouraudTriangle>) -> impl Iterator<Item = PaintOp<'
     std::iter::from_fn(move || {
         let (element, seams) = elements.next()?;
         Some(match element {
-            Element::Area { contours, color, .. } => PaintOp::Area { contours, color: *color, seams },
+            Element::Area { contours, color, .. } => {
+                PaintOp::Area { contours, color: *color, seams }
+            }
             Element::Line { ends, width, color } => {
                 PaintOp::Line { ends: *ends, width: *width, color: *color }
             }

@@ -5,8 +5,8 @@ use pdf_writer::{Content, Filter, Name, Pdf, Ref, Str};
 
 use super::pdf_font::{FONT_NAME, PdfFont};
 use super::{
-    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Pane, Point, Rgb, SEAM_WIDTH, SLANT, Text, paint_ops,
-    texts,
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Pane, Point, Rgb, SEAM_WIDTH, SLANT, Text,
+    paint_ops, texts,
 };
 use crate::Metadata;
 use crate::pdf::{FIRST, deflate, document};

@@ -35,7 +35,8 @@ impl PdfFont {
         let font = typeface::font();
         let (mut glyphs, mut numbers) = (BTreeMap::new(), BTreeMap::new());
         for character in texts.flat_map(|text| text.text.chars()) {
-            let glyph = *numbers.entry(character).or_insert_with(|| typeface::glyph_id(&font, character));
+            let glyph =
+                *numbers.entry(character).or_insert_with(|| typeface::glyph_id(&font, character));
             glyphs.entry(glyph).or_insert_with(|| (typeface::advance(&font, glyph), character));
         }
         Self { glyphs, numbers }
@@ -68,14 +69,18 @@ impl PdfFont {
 
     /// Writes the objects of the font; `id` is that of the first, the others follow it.
     pub fn write(&self, pdf: &mut Pdf, id: Ref) {
-        let [cid, descriptor, file, characters] = [1, 2, 3, 4].map(|step| Ref::new(id.get() + step));
+        let [cid, descriptor, file, characters] =
+            [1, 2, 3, 4].map(|step| Ref::new(id.get() + step));
         let name = Name(typeface::SUBSET_NAME.as_bytes());
         let mut font = pdf.type0_font(id);
         font.base_font(name).encoding_predefined(Name(b"Identity-H"));
         font.descendant_font(cid).to_unicode(characters);
         font.finish();
         let mut font = pdf.cid_font(cid);
-        font.subtype(CidFontType::Type2).base_font(name).system_info(SYSTEM).font_descriptor(descriptor);
+        font.subtype(CidFontType::Type2)
+            .base_font(name)
+            .system_info(SYSTEM)
+            .font_descriptor(descriptor);
         font.default_width(0.0).cid_to_gid_map_predefined(Name(b"Identity"));
         let mut widths = font.widths();
         for (&glyph, &(width, _)) in &self.glyphs {

@@ -2,7 +2,8 @@
 
 use super::postscript_font::{definition, show};
 use super::{
-    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Pane, Point, Rgb, SEAM_WIDTH, number, paint_ops, texts,
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Pane, Point, Rgb, SEAM_WIDTH, number,
+    paint_ops, texts,
 };
 use crate::Metadata;
 use crate::pdf::deflate;
@@ -83,8 +84,9 @@ fn drawing(figure: &Figure<GouraudTriangle>) -> Vec<u8> {
 
 /// The path of outlines.
 fn path(contours: &[Vec<Point>]) -> String {
-    let step =
-        |(idx, [x, y]): (usize, [String; 2])| format!("{x} {y} {}\n", if idx == 0 { 'm' } else { 'l' });
+    let step = |(idx, [x, y]): (usize, [String; 2])| {
+        format!("{x} {y} {}\n", if idx == 0 { 'm' } else { 'l' })
+    };
     let contour = |contour: &Vec<Point>| {
         let steps = contour.iter().map(|point| point.map(number)).enumerate().map(step);
         steps.chain(["h\n".to_owned()]).collect::<String>()

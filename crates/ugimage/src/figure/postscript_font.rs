@@ -27,7 +27,8 @@ pub fn definition<'a>(texts: impl Iterator<Item = &'a Text>, out: &mut Vec<u8>) 
         characters.len() + 1
     );
     for character in characters {
-        text += &format!("/{} {} def\n", glyph_name(character), typeface::glyph_id(&font, character));
+        text +=
+            &format!("/{} {} def\n", glyph_name(character), typeface::glyph_id(&font, character));
     }
     text += "end def\n/sfnts [\n";
     out.extend_from_slice(text.as_bytes());
@@ -44,10 +45,17 @@ pub fn show(Text { text, places, origin: [x, y], size, is_slanted, .. }: &Text) 
     let slant = number(if *is_slanted { SLANT * size } else { 0.0 });
     let size = number(*size);
     // Rows of the page count downwards, letters stand upright.
-    let mut code =
-        format!("/{} findfont [{size} 0 {slant} -{size} 0 0] makefont setfont\n", typeface::SUBSET_NAME);
+    let mut code = format!(
+        "/{} findfont [{size} 0 {slant} -{size} 0 0] makefont setfont\n",
+        typeface::SUBSET_NAME
+    );
     for (character, place) in text.chars().zip(places) {
-        code += &format!("{} {} m /{} glyphshow\n", number(x + place), number(*y), glyph_name(character));
+        code += &format!(
+            "{} {} m /{} glyphshow\n",
+            number(x + place),
+            number(*y),
+            glyph_name(character)
+        );
     }
     code
 }

@@ -43,11 +43,16 @@ pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
             }
             Element::Line { ends, width, color } => {
                 let (path, width) = (lines(&[*ends]), number(*width));
-                out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
+                out += &format!(
+                    "<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n",
+                    hex(*color)
+                );
             }
             Element::Text(text) => out += &text_element(text),
             Element::Pane(Some(Pane { corner: [left, top], size: [width, height] })) => {
-                out += &format!("<clipPath id=\"c\"><path d=\"M0 0H{width}V{height}H0z\"/></clipPath>");
+                out += &format!(
+                    "<clipPath id=\"c\"><path d=\"M0 0H{width}V{height}H0z\"/></clipPath>"
+                );
                 let moved = match (left, top) {
                     (0, 0) => String::new(),
                     _ => format!(" transform=\"translate({left} {top})\""),

@@ -34,12 +34,15 @@ impl Tile {
                 (self.path(contours.iter().map(Vec::as_slice)), FillRule::EvenOdd)
             }
             Shape::Lines { lines, width, .. } => {
-                let strips: Vec<Vec<Point>> = lines.iter().map(|&line| strip(line, 0.5 * width)).collect();
+                let strips: Vec<Vec<Point>> =
+                    lines.iter().map(|&line| strip(line, 0.5 * width)).collect();
                 // All strips have the same orientation, so the nonzero winding rule fills their
                 // union.
                 (self.path(strips.iter().map(Vec::as_slice)), FillRule::Winding)
             }
-            Shape::Text(text) => (self.path(contours(text).iter().map(Vec::as_slice)), FillRule::EvenOdd),
+            Shape::Text(text) => {
+                (self.path(contours(text).iter().map(Vec::as_slice)), FillRule::EvenOdd)
+            }
         };
         let path = path?;
         let [width, height] = self.size;
@@ -81,7 +84,8 @@ impl Tile {
                 continue;
             }
             let cell = |coordinate: f64, start: f64| {
-                ((coordinate - start).clamp(-MAX_DISTANCE, MAX_DISTANCE) * f64::from(CELLS_PER_PIXEL)) as f32
+                ((coordinate - start).clamp(-MAX_DISTANCE, MAX_DISTANCE)
+                    * f64::from(CELLS_PER_PIXEL)) as f32
             };
             for (idx, &[x, y]) in contour.iter().enumerate() {
                 let (x, y) = (cell(x, left), cell(y, top));

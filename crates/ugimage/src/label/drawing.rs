@@ -40,14 +40,18 @@ impl Shape {
     /// Its colour.
     pub fn color(&self) -> Rgb {
         match self {
-            Self::Area { color, .. } | Self::Lines { color, .. } | Self::Text(Text { color, .. }) => *color,
+            Self::Area { color, .. }
+            | Self::Lines { color, .. }
+            | Self::Text(Text { color, .. }) => *color,
         }
     }
 
     /// The same shape with text as areas, the outlines of its letters.
     pub fn outlined(&self) -> Cow<'_, Self> {
         match self {
-            Self::Text(text) => Cow::Owned(Self::Area { contours: contours(text), color: text.color }),
+            Self::Text(text) => {
+                Cow::Owned(Self::Area { contours: contours(text), color: text.color })
+            }
             Self::Area { .. } | Self::Lines { .. } => Cow::Borrowed(self),
         }
     }
@@ -123,9 +127,11 @@ impl Drawing {
             match shape {
                 Shape::Text(text) if text.text.trim().is_empty() => {}
                 Shape::Text(text) => elements.push(match form {
-                    TextForm::Outlines => {
-                        Element::Area { contours: contours(text), color: text.color, is_inside: false }
-                    }
+                    TextForm::Outlines => Element::Area {
+                        contours: contours(text),
+                        color: text.color,
+                        is_inside: false,
+                    },
                     TextForm::Text => Element::Text(text.clone()),
                 }),
                 Shape::Area { contours, color } => {
@@ -135,8 +141,13 @@ impl Drawing {
                         is_inside: false,
                     });
                 }
-                Shape::Lines { lines, width, color } => elements
-                    .extend(lines.iter().map(|&ends| Element::Line { ends, width: *width, color: *color })),
+                Shape::Lines { lines, width, color } => {
+                    elements.extend(lines.iter().map(|&ends| Element::Line {
+                        ends,
+                        width: *width,
+                        color: *color,
+                    }))
+                }
             }
         }
         elements

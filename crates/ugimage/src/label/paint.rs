@@ -18,7 +18,8 @@ impl Drawing {
         self.for_each_covered(size, |idx, color, part| {
             let [red, green, blue, alpha] = pixels[idx].map(f32::from);
             let below = if is_opaque { 1.0 } else { alpha / 255.0 };
-            let ([red, green, blue], all) = over(color.map(f32::from), part, [red, green, blue], below);
+            let ([red, green, blue], all) =
+                over(color.map(f32::from), part, [red, green, blue], below);
             // The casts to integers saturate.
             pixels[idx] = [red, green, blue, 255.0 * all].map(|level| level.round() as u8);
         });
@@ -33,8 +34,10 @@ impl Drawing {
         self.for_each_covered(size, |idx, color, part| {
             let [red, green, blue, drawn] = pixels[idx];
             let below = if is_opaque { 1.0 } else { drawn };
-            let under = [red, green, blue].map(|light| srgb_encode(f64::from(light).clamp(0.0, 1.0)) as f32);
-            let (levels, all) = over(color.map(|level| f32::from(level) / 255.0), part, under, below);
+            let under = [red, green, blue]
+                .map(|light| srgb_encode(f64::from(light).clamp(0.0, 1.0)) as f32);
+            let (levels, all) =
+                over(color.map(|level| f32::from(level) / 255.0), part, under, below);
             let [red, green, blue] = levels.map(|level| srgb_decode(f64::from(level)) as f32);
             pixels[idx] = [red, green, blue, if is_opaque { drawn } else { all }];
         });
@@ -42,7 +45,11 @@ impl Drawing {
 
     /// Calls `mix` for each pixel that a shape covers, with the pixel's index, the colour of the
     /// shape and the coverage, 0…1.
-    fn for_each_covered(&self, [width, height]: [u32; 2], mut mix: impl FnMut(usize, [u8; 3], f32)) {
+    fn for_each_covered(
+        &self,
+        [width, height]: [u32; 2],
+        mut mix: impl FnMut(usize, [u8; 3], f32),
+    ) {
         for shape in &self.shapes {
             let shape = shape.outlined();
             let color = shape.color();
@@ -52,8 +59,10 @@ impl Drawing {
                     let tile = Tile { first: [left, top], size };
                     let Some(parts) = tile.coverage(&shape) else { continue };
                     for (idx, &part) in parts.iter().enumerate().filter(|(_, part)| **part > 0.0) {
-                        let (x, y) =
-                            (left as usize + idx % size[0] as usize, top as usize + idx / size[0] as usize);
+                        let (x, y) = (
+                            left as usize + idx % size[0] as usize,
+                            top as usize + idx / size[0] as usize,
+                        );
                         mix(y * width as usize + x, color, part);
                     }
                 }

@@ -51,7 +51,8 @@ impl Line {
     /// The line with a baseline that begins at `origin`, in runs of upright or slanted characters.
     pub fn at(&self, [x, y]: Point, color: Rgb) -> impl Iterator<Item = Text> {
         let chars: Vec<char> = self.text.chars().collect();
-        let slanted: Vec<(bool, usize)> = (0..chars.len()).map(|at| (is_symbol(&chars, at), at)).collect();
+        let slanted: Vec<(bool, usize)> =
+            (0..chars.len()).map(|at| (is_symbol(&chars, at), at)).collect();
         let runs = slanted.chunk_by(|one, next| one.0 == next.0).map(|run| {
             let (is_slanted, first) = run[0];
             let (size, start) = (self.size, self.places[first]);
@@ -81,10 +82,13 @@ fn is_symbol(text: &[char], at: usize) -> bool {
 }
 
 /// The outlines of all characters of a line.
-pub fn contours(Text { text, places, origin: [x, y], size, is_slanted, .. }: &Text) -> Vec<Vec<Point>> {
+pub fn contours(
+    Text { text, places, origin: [x, y], size, is_slanted, .. }: &Text,
+) -> Vec<Vec<Point>> {
     let slant = if *is_slanted { SLANT } else { 0.0 };
     let font = SizedFont::new(*size);
-    let glyphs = text.chars().zip(places).filter_map(|(c, place)| Some((font.glyph(c).ok()?, place)));
+    let glyphs =
+        text.chars().zip(places).filter_map(|(c, place)| Some((font.glyph(c).ok()?, place)));
     glyphs.flat_map(|(glyph, place)| font.contours(glyph, [x + place, *y], slant)).collect()
 }
 
@@ -115,7 +119,12 @@ pub fn wrapped(text: &str, size: f64, width: f64) -> Result<Vec<Line>, MissingCh
 }
 
 /// Breaks a word that may be too wide: adds its full lines to `lines` and returns the rest.
-fn break_word(word: &str, size: f64, width: f64, lines: &mut Vec<Line>) -> Result<String, MissingCharacter> {
+fn break_word(
+    word: &str,
+    size: f64,
+    width: f64,
+    lines: &mut Vec<Line>,
+) -> Result<String, MissingCharacter> {
     let mut part = String::new();
     for character in word.chars() {
         let longer = format!("{part}{character}");

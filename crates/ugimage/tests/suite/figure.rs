@@ -41,7 +41,10 @@ fn the_area_painted_first_is_extended_under_the_other() {
     let right = area([[1.0, 1.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]]);
     let line = Element::Line { ends: [[0.0; 2]; 2], width: 1.0, color: [0; 3] };
     let found = svg(vec![left, line, right]);
-    assert!(found.contains("M0 0L1 0L1 1L0 1z\"/><path stroke=\"#000\" d=\"M1 0L1 1\"/>\n"), "{found}");
+    assert!(
+        found.contains("M0 0L1 0L1 1L0 1z\"/><path stroke=\"#000\" d=\"M1 0L1 1\"/>\n"),
+        "{found}"
+    );
     assert!(found.contains("M1 1L1 0L2 0L2 1z\"/>\n"), "{found}");
 }
 
@@ -55,8 +58,11 @@ fn the_font_is_embedded() {
     let figure = Figure { size: [9, 9], background: None, elements };
     let file = String::from_utf8(figure::eps(&figure, &Metadata::default())).unwrap();
     let fonts = file.split_once("/sfnts [").unwrap().1.split_once("] def").unwrap().0;
-    let parts: Vec<_> =
-        fonts.split("<~").skip(1).map(|part| decoded_85(part.trim_end().trim_end_matches("~>"))).collect();
+    let parts: Vec<_> = fonts
+        .split("<~")
+        .skip(1)
+        .map(|part| decoded_85(part.trim_end().trim_end_matches("~>")))
+        .collect();
     assert!(parts.len() > 1 && parts.iter().all(|part| part.len() <= 65_535));
     let whole: Vec<u8> = parts.iter().flat_map(|part| &part[..part.len() - 1]).copied().collect();
     assert!(whole == include_bytes!("../../font/DejaVuSans.ttf"));

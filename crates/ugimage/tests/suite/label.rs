@@ -70,7 +70,8 @@ fn wrapped_lines_fit_and_keep_all_words() {
     for width in [60.0, 100.0, 250.0, 5000.0] {
         let lines = wrapped(text, 12.0, width).unwrap();
         assert!(lines.iter().all(|line| line.width() <= width));
-        let n_glyphs = |line: &Line| line.at([0.0; 2], [0; 3]).map(|run| run.places.len()).sum::<usize>();
+        let n_glyphs =
+            |line: &Line| line.at([0.0; 2], [0; 3]).map(|run| run.places.len()).sum::<usize>();
         let glyphs: usize = lines.iter().map(n_glyphs).sum();
         // At least, because spaces within lines also count.
         assert!(glyphs >= whole, "{width}");
@@ -141,7 +142,11 @@ fn the_font_has_the_common_characters() {
         .chain("βγλν×°−→⟵←↑↓≈≤≥⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺₀₁₂₃′″–—‘’“”…√∞⊙⊗".chars())
     {
         // The long arrow is not among the characters of the subset font.
-        assert_eq!(Line::new(&character.to_string(), 10.0).is_ok(), character != '⟵', "{character}");
+        assert_eq!(
+            Line::new(&character.to_string(), 10.0).is_ok(),
+            character != '⟵',
+            "{character}"
+        );
     }
 }
 
@@ -171,7 +176,8 @@ fn no_glyph_has_outlines_that_overlap() {
 }
 
 fn winding(contours: &[Vec<Point>], [x, y]: Point) -> i32 {
-    let edges = contours.iter().flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)));
+    let edges =
+        contours.iter().flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)));
     edges
         .filter(|(a, b)| (a[1] <= y) != (b[1] <= y))
         .filter(|(a, b)| a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) > x)
@@ -242,7 +248,8 @@ fn ink_keeps_its_colour_on_a_transparent_frame() {
 fn crossing_lines_are_covered_as_a_union() {
     let mut frame = Frame::opaque(20, 20);
     let mut drawing = Drawing::default();
-    let lines = vec![[[10.0, 2.0], [10.0, 18.0]], [[18.0, 10.0], [2.0, 10.0]], [[10.0, 18.0], [10.0, 9.0]]];
+    let lines =
+        vec![[[10.0, 2.0], [10.0, 18.0]], [[18.0, 10.0], [2.0, 10.0]], [[10.0, 18.0], [10.0, 9.0]]];
     drawing.lines(lines, 4.0, [255; 3]);
     drawing.paint(&mut frame);
     assert_eq!(frame.pixel(10, 10), [255; 4]);
@@ -260,7 +267,10 @@ fn light_is_blended_in_display_encoding() {
         drawing.paint_light(&mut light);
         for (ours, theirs) in frame.pixels().iter().zip(light.to_display().pixels()) {
             // Bytes are rounded after each shape.
-            assert!(ours.iter().zip(theirs).all(|(a, b)| a.abs_diff(*b) <= 2), "{ours:?} {theirs:?}");
+            assert!(
+                ours.iter().zip(theirs).all(|(a, b)| a.abs_diff(*b) <= 2),
+                "{ours:?} {theirs:?}"
+            );
         }
     }
 }
@@ -269,7 +279,11 @@ fn light_is_blended_in_display_encoding() {
 fn huge_and_nan_coordinates_are_harmless() {
     let mut drawing = rectangle(-1e300, -1e300, 1e300, 1e300);
     drawing.rectangle([f64::NAN, 0.0], [3.0, 3.0], [1, 2, 3]);
-    drawing.lines(vec![[[1.0, 1.0], [1.0, 1.0]], [[f64::INFINITY, 0.0], [0.0, 0.0]]], 2.0, [1, 2, 3]);
+    drawing.lines(
+        vec![[[1.0, 1.0], [1.0, 1.0]], [[f64::INFINITY, 0.0], [0.0, 0.0]]],
+        2.0,
+        [1, 2, 3],
+    );
     let mut frame = Frame::opaque(4, 4);
     drawing.paint(&mut frame);
     assert_eq!(frame.pixel(2, 2), [255, 128, 0, 255]);

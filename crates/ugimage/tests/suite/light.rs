@@ -126,8 +126,9 @@ fn colours_of_jpeg_are_understood() {
     for file in [&include_bytes!("../cmyk.jpg")[..], include_bytes!("../rgb.jpg")] {
         let (found_size, found) = srgb(file);
         assert_eq!(found_size, size);
-        let difference =
-            |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|i| u32::from(a[i].abs_diff(b[i]))).sum::<u32>();
+        let difference = |(a, b): (&[u8; 4], &[u8; 4])| {
+            (0..4).map(|i| u32::from(a[i].abs_diff(b[i]))).sum::<u32>()
+        };
         let sum: u32 = found.iter().zip(&expected).map(difference).sum();
         assert!(sum < 6 * expected.len() as u32, "{sum}");
     }
@@ -154,10 +155,17 @@ fn orientations_of_cameras_are_applied() {
                 if little { bytes[..n_bytes].to_vec() } else { bytes[4 - n_bytes..].to_vec() }
             };
             let head = if little { b"Exif\0\0II" } else { b"Exif\0\0MM" };
-            let entry =
-                [number(0x112, 2), number(3, 2), number(1, 4), number(orientation, 2), number(0, 2)].concat();
+            let entry = [
+                number(0x112, 2),
+                number(3, 2),
+                number(1, 4),
+                number(orientation, 2),
+                number(0, 2),
+            ]
+            .concat();
             let exif =
-                [head.to_vec(), number(42, 2), number(8, 4), number(1, 2), entry, number(0, 4)].concat();
+                [head.to_vec(), number(42, 2), number(8, 4), number(1, 2), entry, number(0, 4)]
+                    .concat();
             let (size, pixels) = srgb(&with_segment(0xe1, &exif));
             assert_eq!(size, if orientation < 5 { [64, 32] } else { [32, 64] });
             let at = |[x, y]: [u32; 2]| pixels[(y * size[0] + x) as usize];
@@ -174,7 +182,9 @@ fn profile(columns: [[f64; 3]; 3], gamma: f64) -> Vec<u8> {
     let start = 132 + 12 * 6;
     for (name, column) in [b"rXYZ", b"gXYZ", b"bXYZ"].into_iter().zip(columns) {
         tags.push((name, start + data.len()));
-        data.extend([*b"XYZ ", [0; 4], fixed(column[0]), fixed(column[1]), fixed(column[2])].concat());
+        data.extend(
+            [*b"XYZ ", [0; 4], fixed(column[0]), fixed(column[1]), fixed(column[2])].concat(),
+        );
     }
     for name in [b"rTRC", b"gTRC", b"bTRC"] {
         tags.push((name, start + data.len()));
@@ -211,7 +221,8 @@ fn colour_profiles_are_applied() {
     }
     // One of sRGB changes nothing; one for inks is told.
     let damaged = [b"ICC_PROFILE\0\x01\x01", &[0; 200][..]].concat();
-    let picture = ugimage::read_picture(&with_segment(0xe2, &damaged), &PictureLimits::default()).unwrap();
+    let picture =
+        ugimage::read_picture(&with_segment(0xe2, &damaged), &PictureLimits::default()).unwrap();
     assert_eq!(picture.pixels, Pixels::Srgb(stored));
     assert_eq!(picture.notes.len(), 1);
 }
@@ -219,15 +230,19 @@ fn colour_profiles_are_applied() {
 /// A panorama that says which part of the sphere it shows, as attributes and as elements.
 #[test]
 fn parts_of_panoramas_are_read() {
-    let numbers = [("FullPanoWidthPixels", 128), ("FullPanoHeightPixels", 64), ("CroppedAreaLeftPixels", 32)];
     let numbers =
-        [&numbers[..], &[("CroppedAreaTopPixels", 16), ("CroppedAreaImageWidthPixels", 64)]].concat();
-    let attributes: String = numbers.iter().map(|(name, n)| format!(" GPano:{name}=\"{n}\"")).collect();
+        [("FullPanoWidthPixels", 128), ("FullPanoHeightPixels", 64), ("CroppedAreaLeftPixels", 32)];
+    let numbers =
+        [&numbers[..], &[("CroppedAreaTopPixels", 16), ("CroppedAreaImageWidthPixels", 64)]]
+            .concat();
+    let attributes: String =
+        numbers.iter().map(|(name, n)| format!(" GPano:{name}=\"{n}\"")).collect();
     let elements: String =
         numbers.iter().map(|(name, n)| format!("<GPano:{name}>{n}</GPano:{name}>")).collect();
     for text in [attributes, elements] {
         let xmp = [b"http://ns.adobe.com/xap/1.0/\0", text.as_bytes()].concat();
-        let picture = ugimage::read_picture(&with_segment(0xe1, &xmp), &PictureLimits::default()).unwrap();
+        let picture =
+            ugimage::read_picture(&with_segment(0xe1, &xmp), &PictureLimits::default()).unwrap();
         assert_eq!(picture.part, Some([0.25, 0.75, 0.25, 0.75]), "{text}");
     }
 }
@@ -276,17 +291,27 @@ fn code_points_of_png_are_applied() {
     }
     let picture = file([9, 16, 0, 1]);
     assert_eq!(picture.pixels, Pixels::Srgb(vec![[51, 51, 204, 255]]));
-    assert!(picture.notes[0].contains("of kind 9/16 (cICP), which is not read"), "{:?}", picture.notes);
+    assert!(
+        picture.notes[0].contains("of kind 9/16 (cICP), which is not read"),
+        "{:?}",
+        picture.notes
+    );
 }
 
 /// What a file is instead of a picture, in the message.
 #[test]
 fn files_that_are_no_pictures_are_named() {
     for (file, expected) in [
-        (&b"RIFF\x10\0\0\0WEBPVP8 "[..], "it is a WebP picture; convert it to PNG, JPEG, HDR, EXR or PFM"),
+        (
+            &b"RIFF\x10\0\0\0WEBPVP8 "[..],
+            "it is a WebP picture; convert it to PNG, JPEG, HDR, EXR or PFM",
+        ),
         (b"II*\0\x08\0\0\0", "it is a TIFF picture; convert it"),
         (b"\0\0\0\x1cftypheic", "it is a HEIC or AVIF picture; convert it"),
-        (b"version https://git-lfs.github.com/spec/v1\n", "it is a Git LFS pointer; fetch the file itself"),
+        (
+            b"version https://git-lfs.github.com/spec/v1\n",
+            "it is a Git LFS pointer; fetch the file itself",
+        ),
         (b"\r\n<!DOCTYPE HTML>", "it is a web page; download the file itself"),
         (b"\x1f\x8b\x08", "it is compressed data; decompress it first"),
         (b"v a 0 0 0 ;", "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM"),
@@ -301,21 +326,26 @@ fn files_that_are_no_pictures_are_named() {
 fn the_part_with_colours_is_read() {
     use exr::prelude::*;
 
-    let attributes = |name: &str| LayerAttributes { layer_name: Some(name.into()), ..Default::default() };
+    let attributes =
+        |name: &str| LayerAttributes { layer_name: Some(name.into()), ..Default::default() };
     let depth = AnyChannel::new("Z", FlatSamples::F32(vec![7.0; 2]));
-    let colors = ["R", "G", "B"].map(|name| AnyChannel::new(name, FlatSamples::F32(vec![0.25, 0.5])));
+    let colors =
+        ["R", "G", "B"].map(|name| AnyChannel::new(name, FlatSamples::F32(vec![0.25, 0.5])));
     let part = |name: &str, list: Vec<AnyChannel<FlatSamples>>| {
         Layer::new((2, 1), attributes(name), Encoding::UNCOMPRESSED, AnyChannels::sort(list.into()))
     };
     let layers = vec![part("depth", vec![depth]), part("colours", colors.into())];
-    let image = Image::from_layers(ImageAttributes::new(IntegerBounds::from_dimensions((2, 1))), layers);
+    let image =
+        Image::from_layers(ImageAttributes::new(IntegerBounds::from_dimensions((2, 1))), layers);
     let mut file = std::io::Cursor::new(Vec::new());
     image.write().to_buffered(&mut file).unwrap();
     let (_, pixels) = read_light(file.get_ref()).unwrap();
     assert_eq!(pixels, [[0.25, 0.25, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0]]);
     // One channel is grey, whatever it is called.
     for name in ["Z", "A", "+1", "\u{1}", "A+1"] {
-        let list = AnyChannels::sort(vec![AnyChannel::new(name, FlatSamples::F32(vec![0.25, 0.5]))].into());
+        let list = AnyChannels::sort(
+            vec![AnyChannel::new(name, FlatSamples::F32(vec![0.25, 0.5]))].into(),
+        );
         let mut file = std::io::Cursor::new(Vec::new());
         Image::from_channels((2, 1), list).write().to_buffered(&mut file).unwrap();
         let (_, pixels) = read_light(file.get_ref()).unwrap();

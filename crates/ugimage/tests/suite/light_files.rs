@@ -4,7 +4,8 @@ use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, Vec2};
 use image::ImageDecoder;
 use image::codecs::hdr::HdrDecoder;
 use ugimage::{
-    Compression, Format, LinearFrame, Metadata, PictureLimits, Plane, Samples, SpectralPicture, read_spectrum,
+    Compression, Format, LinearFrame, Metadata, PictureLimits, Plane, Samples, SpectralPicture,
+    read_spectrum,
 };
 
 use crate::{linear_frames, read_light};
@@ -92,7 +93,10 @@ fn headers_of_radiance_are_applied() {
     let xyz = ugphysics::xyz_to_linear_srgb([0.125, 0.5, 0.5]);
     for header in ["FORMAT=32-bit_rle_xyze", "PRIMARIES=1 0 0 1 0 0 .3333 .3333"] {
         let found = first(header).unwrap();
-        assert!((0..3).all(|part| (f64::from(found[part]) - xyz[part]).abs() < 1e-6), "{found:?} {xyz:?}");
+        assert!(
+            (0..3).all(|part| (f64::from(found[part]) - xyz[part]).abs() < 1e-6),
+            "{found:?} {xyz:?}"
+        );
     }
     assert!(first("EXPOSURE=0").unwrap_err().contains("not above 0"));
     assert!(first("FORMAT=x").unwrap_err().contains("FORMAT"));
@@ -119,7 +123,10 @@ fn special_values_are_encoded() {
     ] {
         let [red, green, blue] = light;
         let frame = LinearFrame::new([1, 1], true, vec![[red, green, blue, 1.0]]);
-        assert!(encoded(Format::Hdr, &frame, &Metadata::default()).ends_with(&expected), "{light:?}");
+        assert!(
+            encoded(Format::Hdr, &frame, &Metadata::default()).ends_with(&expected),
+            "{light:?}"
+        );
     }
 }
 
@@ -145,7 +152,10 @@ fn values_round_trip() {
     };
     for mut frame in linear_frames() {
         let n_pixels = frame.pixels().len() as u32;
-        frame.push_plane(Plane { name: "id".into(), samples: Samples::Whole((0..n_pixels).rev().collect()) });
+        frame.push_plane(Plane {
+            name: "id".into(),
+            samples: Samples::Whole((0..n_pixels).rev().collect()),
+        });
         let times: Vec<f32> = (0..n_pixels).map(|idx| -(idx as f32)).collect();
         frame.push_plane(Plane { name: "time".into(), samples: Samples::Float(times.clone()) });
         let file = encoded(Format::Exr, &frame, &metadata);
@@ -156,10 +166,12 @@ fn values_round_trip() {
         assert_eq!(layer.attributes.world_to_camera, Some([2.0; 16]));
         assert_eq!(layer.attributes.world_to_normalized_device, Some([3.0; 16]));
         assert_eq!(layer.size, Vec2(frame.width() as usize, frame.height() as usize));
-        let channel =
-            |name: &str| layer.channel_data.list.iter().find(|c| c.name.eq(name)).map(|c| &c.sample_data);
+        let channel = |name: &str| {
+            layer.channel_data.list.iter().find(|c| c.name.eq(name)).map(|c| &c.sample_data)
+        };
         for (idx, name) in ["R", "G", "B"].into_iter().enumerate() {
-            let light: Vec<f32> = frame.pixels().iter().map(|&pixel| frame.light_of(pixel)[idx]).collect();
+            let light: Vec<f32> =
+                frame.pixels().iter().map(|&pixel| frame.light_of(pixel)[idx]).collect();
             assert_eq!(channel(name), Some(&FlatSamples::F32(light)));
         }
         assert_eq!(channel("A").is_some(), !frame.is_opaque());
@@ -183,7 +195,8 @@ fn channels_are_read_in_the_order_of_wavelengths() {
     let names = ["S0.1000nm", "S0.450nm", "S0.449,5nm", "S1.450nm", "S0.95nm", "S0.nm", "S0.-1nm"];
     let file = spectral(&names);
     let picture = read_spectrum(&file, &limits).unwrap();
-    let found: Vec<(f64, f32)> = picture.samples.iter().map(|(nm, values)| (*nm, values[7])).collect();
+    let found: Vec<(f64, f32)> =
+        picture.samples.iter().map(|(nm, values)| (*nm, values[7])).collect();
     assert_eq!(
         (picture.size, found),
         ([4, 2], vec![(95.0, 47.0), (449.5, 27.0), (450.0, 17.0), (1000.0, 7.0)])
@@ -201,10 +214,12 @@ fn channels_are_read_in_the_order_of_wavelengths() {
 #[test]
 fn files_are_read_as_they_were_written() {
     for frame in linear_frames() {
-        let (size, pixels) = read_light(&encoded(Format::Pfm, &frame, &Metadata::default())).unwrap();
+        let (size, pixels) =
+            read_light(&encoded(Format::Pfm, &frame, &Metadata::default())).unwrap();
         assert_eq!(size, [frame.width(), frame.height()]);
         let bits = |light: [f32; 3]| light.map(f32::to_bits);
-        let written: Vec<_> = frame.pixels().iter().map(|&pixel| bits(frame.light_of(pixel))).collect();
+        let written: Vec<_> =
+            frame.pixels().iter().map(|&pixel| bits(frame.light_of(pixel))).collect();
         let read: Vec<_> = pixels.iter().map(|&[r, g, b, _]| bits([r, g, b])).collect();
         assert_eq!(read, written);
     }

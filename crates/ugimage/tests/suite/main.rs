@@ -55,7 +55,9 @@ pub fn linear_frames() -> Vec<LinearFrame> {
     vec![
         frame([1, 1], true, &|_| [0.25, 1.0, 4.0, 1.0]),
         frame([9, 5], true, &|idx| [idx as f32 * 0.37, -0.5, 1e-4 * idx as f32, 1.0]),
-        frame([300, 3], true, &|idx| if idx % 97 < 60 { [5.5, 0.5, 1e5, 1.0] } else { [idx as f32; 4] }),
+        frame([300, 3], true, &|idx| {
+            if idx % 97 < 60 { [5.5, 0.5, 1e5, 1.0] } else { [idx as f32; 4] }
+        }),
         frame([8, 4], false, &|idx| [2.0, 0.1 * idx as f32, 0.0, (idx % 5) as f32 / 4.0]),
     ]
 }

@@ -30,7 +30,8 @@ fn small_files_have_the_same_pixels() {
     let frame = Frame::new([200, 100], true, pixels.collect());
     let light = LinearFrame::from(&frame);
     let of_8 = |compression| Format::Png.encode_with(&frame, &Metadata::default(), compression);
-    let of_16 = |compression| Format::Png16.encode_linear(&light, &Metadata::default(), compression);
+    let of_16 =
+        |compression| Format::Png16.encode_linear(&light, &Metadata::default(), compression);
     for [fast, small] in [
         [Compression::Fast, Compression::Small].map(of_8),
         [Compression::Fast, Compression::Small].map(of_16),
@@ -71,8 +72,10 @@ fn sixteen_bits_are_the_nearest_levels() {
         let channels = if frame.is_opaque() { 3 } else { 4 };
         assert_eq!(bytes.len(), frame.pixels().len() * 2 * channels);
         for (bytes, light) in bytes.chunks(2 * channels).zip(frame.pixels()) {
-            let levels: Vec<f64> =
-                bytes.chunks(2).map(|pair| f64::from(u16::from_be_bytes([pair[0], pair[1]]))).collect();
+            let levels: Vec<f64> = bytes
+                .chunks(2)
+                .map(|pair| f64::from(u16::from_be_bytes([pair[0], pair[1]])))
+                .collect();
             for (level, light) in levels.iter().zip(&light[..3]) {
                 let back = ugphysics::srgb_decode(level / 65535.0);
                 // Half a level, where decoding is steepest: 2.4/1.055 per unit.
@@ -98,7 +101,8 @@ fn metadata_round_trips() {
         info.uncompressed_latin1_text.iter().map(|chunk| (&*chunk.keyword, &*chunk.text)).collect();
     assert_eq!(texts, [("Software", "ug 1"), ("Comment", "ug -vel .9 0 0\nug\u{e9}")]);
 
-    let metadata = Metadata { software: String::new(), comment: "γ = 2\0".into(), ..Metadata::default() };
+    let metadata =
+        Metadata { software: String::new(), comment: "γ = 2\0".into(), ..Metadata::default() };
     let (_, _, info) = decode(&Format::Png.encode(&frame, &metadata));
     assert!(info.uncompressed_latin1_text.is_empty());
     assert_eq!(info.utf8_text[0].get_text().unwrap(), "γ = 2");
@@ -124,7 +128,8 @@ fn panoramas_state_their_area() {
     assert!(!xmp[0].compressed);
     assert_eq!(read_png_header(&file).unwrap().1, metadata);
     assert_eq!(read_history(&file).unwrap(), "ug γ");
-    let deep = Format::Png16.encode_linear(&LinearFrame::from(&frame), &metadata, Compression::Fast);
+    let deep =
+        Format::Png16.encode_linear(&LinearFrame::from(&frame), &metadata, Compression::Fast);
     assert_eq!(read_png_header(&deep).unwrap().1, metadata);
 
     let plain = Format::Png.encode(&frame, &Metadata { panorama: None, ..metadata });

@@ -9,7 +9,8 @@ use crate::frames;
 pub fn decoded_85(text: &str) -> Vec<u8> {
     let mut bytes = Vec::new();
     let text = text.replace('z', "!!!!!");
-    let digits: Vec<u64> = text.bytes().filter(u8::is_ascii_graphic).map(|c| u64::from(c - b'!')).collect();
+    let digits: Vec<u64> =
+        text.bytes().filter(u8::is_ascii_graphic).map(|c| u64::from(c - b'!')).collect();
     for group in digits.chunks(5) {
         let word = (0..5).fold(0, |word, at| 85 * word + group.get(at).copied().unwrap_or(84));
         bytes.extend(&u32::try_from(word).unwrap().to_be_bytes()[..group.len() - 1]);
@@ -54,7 +55,10 @@ fn pictures_are_over_white() {
             .collect();
         let check = |found: &[u8]| {
             assert_eq!(found.len(), expected.len());
-            assert!(found.iter().zip(&expected).all(|(a, b)| (f64::from(*a) - b).abs() < 0.51), "{found:?}");
+            assert!(
+                found.iter().zip(&expected).all(|(a, b)| (f64::from(*a) - b).abs() < 0.51),
+                "{found:?}"
+            );
         };
         let file = String::from_utf8(Format::Eps.encode(&frame, &Metadata::default())).unwrap();
         let data = file.split_once("\nUgImage\n").unwrap().1.split_once("~>").unwrap().0;
@@ -65,7 +69,9 @@ fn pictures_are_over_white() {
         let is_plain = frame.pixels().iter().all(|pixel| *pixel == frame.pixels()[0]);
         assert!(!is_plain || coded.len() <= 4 + expected.len() / 60);
         let file = Format::Ppm.encode(&frame, &Metadata::default());
-        let read = image::load_from_memory_with_format(&file, image::ImageFormat::Pnm).unwrap().into_rgb8();
+        let read = image::load_from_memory_with_format(&file, image::ImageFormat::Pnm)
+            .unwrap()
+            .into_rgb8();
         assert_eq!(read.dimensions(), (frame.width(), frame.height()));
         check(read.as_raw());
     }
@@ -74,7 +80,8 @@ fn pictures_are_over_white() {
 #[test]
 fn metadata_is_in_comments() {
     let comments = |software: &str, comment: &str| {
-        let metadata = Metadata { software: software.into(), comment: comment.into(), ..Metadata::default() };
+        let metadata =
+            Metadata { software: software.into(), comment: comment.into(), ..Metadata::default() };
         String::from_utf8(Format::Eps.encode(&Frame::opaque(1, 1), &metadata)).unwrap()
     };
     let file = comments("ug\n1", "a -vel .9\nγ");
@@ -83,7 +90,8 @@ fn metadata_is_in_comments() {
         "{file}"
     );
     let long = comments("", &"x".repeat(1000));
-    let lines: Vec<_> = long.lines().filter(|line| line.contains("xx") && line.starts_with('%')).collect();
+    let lines: Vec<_> =
+        long.lines().filter(|line| line.contains("xx") && line.starts_with('%')).collect();
     assert!(lines.iter().all(|line| line.len() <= 255) && !long.contains("Creator"));
     assert_eq!(lines.concat().matches("x").count(), 1000);
 }

@@ -14,9 +14,13 @@ fn read(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
 #[test]
 fn png_round_trip() {
     for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
-        let metadata = Metadata { software: "ug 1".into(), comment: comment.into(), ..Metadata::default() };
+        let metadata =
+            Metadata { software: "ug 1".into(), comment: comment.into(), ..Metadata::default() };
         for frame in frames() {
-            assert_eq!(read(&Format::Png.encode(&frame, &metadata)).unwrap(), (frame, metadata.clone()));
+            assert_eq!(
+                read(&Format::Png.encode(&frame, &metadata)).unwrap(),
+                (frame, metadata.clone())
+            );
         }
     }
 }
@@ -41,8 +45,16 @@ fn sixteen_bits_and_greys_are_read() {
 fn broken_files_are_refused() {
     let file = Format::Png.encode(&frames()[2], &Metadata::default());
     assert!(read(b"").is_err());
-    assert_eq!(read(b"GIF89a").unwrap_err().to_string(), "not a PNG file, the only kind that is read");
-    assert!(read(b"\x89PNG\r\n\x1a\n").unwrap_err().to_string().starts_with("not a readable PNG file: "));
+    assert_eq!(
+        read(b"GIF89a").unwrap_err().to_string(),
+        "not a PNG file, the only kind that is read"
+    );
+    assert!(
+        read(b"\x89PNG\r\n\x1a\n")
+            .unwrap_err()
+            .to_string()
+            .starts_with("not a readable PNG file: ")
+    );
     for length in 0..file.len() - 30 {
         assert!(read(&file[..length]).is_err(), "{length}");
     }
@@ -92,7 +104,9 @@ fn packed(text: &[u8]) -> Vec<u8> {
 #[test]
 fn texts_of_every_kind_are_read() {
     let ztxt = |keyword: &str, text: &[u8]| [keyword.as_bytes(), b"\0\0", &packed(text)].concat();
-    let itxt = |flag: u8, text: Vec<u8>| [&b"Comment\0"[..], &[flag, 0], b"el\0\xce\xb3\0", &text].concat();
+    let itxt = |flag: u8, text: Vec<u8>| {
+        [&b"Comment\0"[..], &[flag, 0], b"el\0\xce\xb3\0", &text].concat()
+    };
     let comment = |chunks: &[(&[u8; 4], Vec<u8>)]| {
         let file = with_chunks(chunks);
         let (size, metadata) = read_png_header(&file).unwrap();
@@ -103,10 +117,15 @@ fn texts_of_every_kind_are_read() {
     assert_eq!(comment(&[(b"zTXt", ztxt("Comment", b"caf\xe9"))]), "café");
     assert_eq!(comment(&[(b"iTXt", itxt(0, "γ = 2".into()))]), "γ = 2");
     assert_eq!(comment(&[(b"iTXt", itxt(1, packed("γ = 2".as_bytes())))]), "γ = 2");
-    assert_eq!(comment(&[(b"tEXt", b"Author\0me".to_vec()), (b"tEXt", b"Comment\0x".to_vec())]), "x");
+    assert_eq!(
+        comment(&[(b"tEXt", b"Author\0me".to_vec()), (b"tEXt", b"Comment\0x".to_vec())]),
+        "x"
+    );
     // Invalid chunks are skipped, and those after them are read.
     let valid = (b"tEXt", b"Comment\0valid".to_vec());
-    for invalid in [b"".to_vec(), b"Comment".to_vec(), b"Comment\0".to_vec(), b"Comment\0\0broken".to_vec()] {
+    for invalid in
+        [b"".to_vec(), b"Comment".to_vec(), b"Comment\0".to_vec(), b"Comment\0\0broken".to_vec()]
+    {
         assert_eq!(comment(&[(b"zTXt", invalid.clone()), valid.clone()]), "valid");
         assert_eq!(comment(&[(b"iTXt", invalid), valid.clone()]), "valid");
     }

@@ -25,10 +25,16 @@ impl Words for Error {
                 format!("the bound of -se is {} milliradians: give a number above 0", error * 1e3)
             }
             Self::NoColorBound { error } => {
-                format!("the bound of -sc is {} percent: give a number above 0, or off", error * 1e2)
+                format!(
+                    "the bound of -sc is {} percent: give a number above 0, or off",
+                    error * 1e2
+                )
             }
             Self::NoLightBound { error } => {
-                format!("the bound of -sl is {} percent: give a number above 0, or off", error * 1e2)
+                format!(
+                    "the bound of -sl is {} percent: give a number above 0, or off",
+                    error * 1e2
+                )
             }
             Self::NoPieces => "-sd 0 would make no pieces: give 1 or more".to_owned(),
             Self::TooManyParts => format!("{self}: give faces vertices of their own, or use -sd 1"),
@@ -70,7 +76,8 @@ impl Error {
             Self::OutOfRange { row, .. } => (row, OUT_OF_RANGE),
             _ => return None,
         };
-        let finding = Diagnostic::error(*origins.vertices.get(*row)?, self.to_string()).label("this vertex");
+        let finding =
+            Diagnostic::error(*origins.vertices.get(*row)?, self.to_string()).label("this vertex");
         Some(Diagnostics::one(source, finding.help(remedy)))
     }
 }
@@ -127,10 +134,13 @@ impl Report {
 
     /// Statistics, for `-vb`.
     pub fn details(&self) -> Vec<String> {
-        let added =
-            format!("subdivision added {} faces and {} vertices", self.n_new_faces, self.n_new_vertices);
+        let added = format!(
+            "subdivision added {} faces and {} vertices",
+            self.n_new_faces, self.n_new_vertices
+        );
         let errors = self.remaining_errors.as_ref().map(|errors| format!("errors left: {errors}"));
-        let culled = (self.n_culled > 0).then(|| format!("removed {} faces outside the view", self.n_culled));
+        let culled = (self.n_culled > 0)
+            .then(|| format!("removed {} faces outside the view", self.n_culled));
         [added].into_iter().chain(culled).chain(errors).collect()
     }
 }

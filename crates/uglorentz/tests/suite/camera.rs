@@ -34,8 +34,9 @@ impl Fleet {
             _ => random.direction() * speed * random.unit(),
         };
         let betas: Vec<DVec3> = (0..n_bodies).map(&mut beta).collect();
-        let bodies =
-            betas.into_iter().map(|beta| Body { beta, corners: [(); 3].map(|()| random.in_ball(10.0)) });
+        let bodies = betas
+            .into_iter()
+            .map(|beta| Body { beta, corners: [(); 3].map(|()| random.in_ball(10.0)) });
         Fleet { bodies: bodies.collect(), camera, eye }
     }
 
@@ -94,7 +95,8 @@ fn the_camera_of_the_scene_may_move() {
         l 0.3; l 0.5 0 0 1 <0.1 0 0.2>; cam -ep 1 0 0 < 0.6 0 0 >; cam other <0 0 0.5>;";
     let by_itself = seen(CAR, &Config::default());
     let without = CAR.replace("< 0.6 0 0 >", "");
-    let by_option = seen(&without, &Config { camera_velocity: Some(DVec3::X * 0.6), ..Config::default() });
+    let by_option =
+        seen(&without, &Config { camera_velocity: Some(DVec3::X * 0.6), ..Config::default() });
     assert_eq!(ugparse::write(&by_itself), ugparse::write(&by_option));
     assert_eq!(by_itself.camera().unwrap().velocity, None, "downstream the camera is at rest");
     assert_eq!(ugscene::camera_velocity(&by_itself), velocity(DVec3::X * 0.6));
@@ -122,20 +124,31 @@ fn the_camera_of_the_scene_may_move() {
 
 #[test]
 fn velocities_take_precedence_as_without_a_moving_camera() {
-    const NESTED: &str = "def tile; v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0.1 0 0>; f (c b a); end;
+    const NESTED: &str =
+        "def tile; v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0.1 0 0>; f (c b a); end;
         def pair; i (tile) <0 0.2 0>; i (tile); end;
         i (pair) <0 0 0.3>; i (pair); i (tile);";
     let betas = |scene: &Scene| -> Vec<DVec3> {
-        let of = |face: &ugscene::Face| scene.bodies.stated_velocity(face.body).unwrap_or_default().beta();
+        let of = |face: &ugscene::Face| {
+            scene.bodies.stated_velocity(face.body).unwrap_or_default().beta()
+        };
         scene.faces.iter().map(of).collect()
     };
     let camera = DVec3::new(0.0, 0.0, 0.3);
     let at_rest = betas(&parse(NESTED));
-    let config = Config { camera_velocity: Some(camera), pieces: Pieces::PerEdge(1), ..Config::default() };
-    let expected: Vec<DVec3> = at_rest
-        .iter()
-        .map(|&u| if u == camera { DVec3::ZERO } else { compose(velocity(u), velocity(-camera)).beta() })
-        .collect();
+    let config =
+        Config { camera_velocity: Some(camera), pieces: Pieces::PerEdge(1), ..Config::default() };
+    let expected: Vec<DVec3> =
+        at_rest
+            .iter()
+            .map(|&u| {
+                if u == camera {
+                    DVec3::ZERO
+                } else {
+                    compose(velocity(u), velocity(-camera)).beta()
+                }
+            })
+            .collect();
     assert_eq!(at_rest.len(), 10);
     assert_eq!(betas(&seen(NESTED, &config)), expected);
     let all = Config { velocity: Some(DVec3::X * 0.5), ..config };
@@ -150,8 +163,12 @@ fn velocities_take_precedence_as_without_a_moving_camera() {
 fn a_local_light_moves_with_the_only_body() {
     let text = "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0 0.5 0.3>; l 0.5 4 5 6 0;";
     let camera = DVec3::new(0.6, 0.2, 0.0);
-    let config =
-        Config { camera_velocity: Some(camera), time: 3.0, pieces: Pieces::PerEdge(1), ..Config::default() };
+    let config = Config {
+        camera_velocity: Some(camera),
+        time: 3.0,
+        pieces: Pieces::PerEdge(1),
+        ..Config::default()
+    };
     let scene = seen(text, &config);
     let rest = rest_positions(&scene, DVec3::ZERO, &RestFrames::new(&scene));
     let LightKind::Local { position, .. } = scene.lights[0].kind else { panic!("it is local") };

@@ -28,11 +28,13 @@ cam -ep 0 0 1;
 #[test]
 fn a_scene_without_a_camera_is_seen_by_the_default_one() {
     let note = UGLORENTZ.notes("-vel .5 0 0 -in", TILE);
-    let camera = note.strip_prefix("uglorentz: note: no camera in the scene: seen as with ").unwrap();
+    let camera =
+        note.strip_prefix("uglorentz: note: no camera in the scene: seen as with ").unwrap();
     let text = UGLORENTZ.text("-vel .5 0 0 -in", TILE);
     let statement = text.lines().find(|line| line.starts_with("cam ")).unwrap();
-    let eye =
-        |options: &str| options.split_whitespace().skip(1).take(3).map(str::to_owned).collect::<Vec<_>>();
+    let eye = |options: &str| {
+        options.split_whitespace().skip(1).take(3).map(str::to_owned).collect::<Vec<_>>()
+    };
     assert_eq!(eye(camera), eye(&statement[4..]), "{note} {text}");
 }
 
@@ -57,7 +59,8 @@ fn options_have_two_spellings() {
 /// A chosen camera's eye is the one from which things are seen, here and in the programs behind.
 #[test]
 fn one_of_several_cameras_can_be_chosen() {
-    let text = UGLORENTZ.text("-vel .5 0 0 -cam side", format!("{TILE} cam -ep 0 -9 0; cam side -ep 7 1 0;"));
+    let text = UGLORENTZ
+        .text("-vel .5 0 0 -cam side", format!("{TILE} cam -ep 0 -9 0; cam side -ep 7 1 0;"));
     let body = |text: &str| {
         text.lines().filter(|line| !line.starts_with('{')).map(str::to_owned).collect::<Vec<_>>()
     };
@@ -84,14 +87,24 @@ fn complaints() {
     check("-va 5e-324", TILE, 1, "degrees cannot be projected on a flat picture");
     check("-sd 0", TILE, 2, "-sd 0 would make no pieces: give 1 or more");
     check("-sd 2 -se 1", TILE, 2, "cannot be given together");
-    check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");
+    check(
+        "-an nose",
+        TILE,
+        2,
+        "`nose` is not an anchor: -an takes eye, origin, center or three numbers",
+    );
     check("-an 1 2", TILE, 2, "`1 2` is not an anchor");
     check("-cam side", TILE, 1, "no camera is called `side`");
     check("-speed 3", TILE, 2, "there is no option");
     check("-vel .5 0 0 no-such-file.ug", TILE, 1, "no-such-file.ug");
     check("", "v a 0 0 0;\nf (a b c);", 1, "<stdin>:2:");
     check("", "v a 1 0 0; v b 1 1 0; v c 0 1 0;\nf (a b c) <0 1.5 0>;", 1, "<stdin>:2:");
-    check("-vel .5 0 0 -ep 3 0 1", TILE, 1, "vertex `a` lies at the eye, where no direction to it exists");
+    check(
+        "-vel .5 0 0 -ep 3 0 1",
+        TILE,
+        1,
+        "vertex `a` lies at the eye, where no direction to it exists",
+    );
     check("-vel .5 0 0 -ep 3 0 1", TILE, 1, "move the eye (-ep) or the vertex");
 }
 
@@ -107,8 +120,7 @@ fn warnings_do_not_stop_it() {
         f (a b c) <.5 0 0>; f (a d e) <.5 0 0>; f (d c e) <.5 0 0>;";
     for (pieces, has_note) in [("", false), ("-sd 1", false), ("-sd 3", true)] {
         let notes = UGLORENTZ.notes(pieces, junction);
-        let note =
-            "-sd leaves cracks where vertices of other faces are on an edge (edges: 1): give -se instead";
+        let note = "-sd leaves cracks where vertices of other faces are on an edge (edges: 1): give -se instead";
         assert_eq!(notes.contains(note), has_note, "{pieces}: {notes}");
     }
     let talk = UGLORENTZ.notes("-vel .5 0 0 -vb", TILE);
@@ -127,14 +139,22 @@ fn measurements_go_to_a_file_that_does_not_change_the_scene() {
     let plain = uglorentz.output("-vel .6 0 0 -ep 0 0 0", TILE);
     let output = uglorentz.run("-vel .6 0 0 -ep 0 0 0 -at t.csv", TILE);
     assert_eq!((messages(&output).as_str(), output.stdout), ("", plain));
-    assert!(std::fs::read_to_string(folder.path().join("t.csv")).unwrap().starts_with("name,x,y,z,"));
+    assert!(
+        std::fs::read_to_string(folder.path().join("t.csv")).unwrap().starts_with("name,x,y,z,")
+    );
 
-    uglorentz.refuses("-at t.txt", TILE, 2, "the name of its file must end with .csv, .ply or .vtp");
+    uglorentz.refuses(
+        "-at t.txt",
+        TILE,
+        2,
+        "the name of its file must end with .csv, .ply or .vtp",
+    );
     uglorentz.refuses("-at both.ply -fo both.ply", TILE, 2, "two outputs cannot go to one file");
     uglorentz.refuses("-at none.csv", "f (a b c);", 1, "`a` is not defined");
     uglorentz.refuses("-at no/folder.csv", TILE, 1, "cannot write");
     // The scene could not be written, so there is no table either.
     uglorentz.refuses("-at late.csv -fo no/scene.ug", TILE, 1, "cannot write");
-    let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let left: Vec<_> =
+        std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["t.csv"]);
 }

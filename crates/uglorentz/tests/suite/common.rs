@@ -28,7 +28,8 @@ pub fn seen(text: &str, config: &Config) -> Scene {
     let text = run(text, config).text();
     let Parsed { scene, passed_on, .. } = parsed(str::from_utf8(&text).unwrap());
     let again = ugparse::write_with(&scene, &passed_on);
-    let lines = |text: &[u8]| String::from_utf8_lossy(text).lines().map(str::to_owned).collect::<Vec<_>>();
+    let lines =
+        |text: &[u8]| String::from_utf8_lossy(text).lines().map(str::to_owned).collect::<Vec<_>>();
     let differs = lines(&text).into_iter().zip(lines(&again)).find(|(a, b)| a != b);
     assert_eq!(differs, None, "what is written is read back");
     scene
@@ -93,7 +94,9 @@ pub fn place(scene: &Scene, vertex: VertexId) -> DVec3 {
 }
 
 pub fn find(scene: &Scene, name: &str) -> VertexId {
-    VertexId::from_index(scene.vertices.iter().position(|v| scene.names.get(v.name) == name).unwrap())
+    VertexId::from_index(
+        scene.vertices.iter().position(|v| scene.names.get(v.name) == name).unwrap(),
+    )
 }
 
 /// Every edge of every face, how often it is walked each way: (low to high, high to low).
@@ -113,15 +116,22 @@ pub fn edges(scene: &Scene) -> BTreeMap<(VertexId, VertexId), (u32, u32)> {
 
 /// Twice the area of a face times its normal.
 pub fn normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DVec3 {
-    let area = |contour: &[VertexId]| ugscene::newell_normal(contour.iter().map(|c| positions[c.index()]));
+    let area =
+        |contour: &[VertexId]| ugscene::newell_normal(contour.iter().map(|c| positions[c.index()]));
     scene.face_contours(face).map(area).sum()
 }
 
 /// A sphere of `8 * 4^n` triangles with uneven radius.
-pub fn rock(random: &mut Random, center: DVec3, radius: f64, n: u32) -> (Vec<DVec3>, Vec<Vec<usize>>) {
+pub fn rock(
+    random: &mut Random,
+    center: DVec3,
+    radius: f64,
+    n: u32,
+) -> (Vec<DVec3>, Vec<Vec<usize>>) {
     let mut vertices = vec![DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
     let mut faces = Vec::new();
-    for (x, y, z) in [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for (x, y, z) in
+        [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
     {
         faces.push(vec![x, y, z]);
     }
@@ -141,12 +151,18 @@ pub fn rock(random: &mut Random, center: DVec3, radius: f64, n: u32) -> (Vec<DVe
         }
         faces = finer;
     }
-    let vertices = vertices.into_iter().map(|p| center + p * radius * random.between(0.7, 1.0)).collect();
+    let vertices =
+        vertices.into_iter().map(|p| center + p * radius * random.between(0.7, 1.0)).collect();
     (vertices, faces)
 }
 
 /// A prism with `n` sides: quadrilaterals and two polygons of `n` corners.
-pub fn prism(random: &mut Random, center: DVec3, size: f64, n: usize) -> (Vec<DVec3>, Vec<Vec<usize>>) {
+pub fn prism(
+    random: &mut Random,
+    center: DVec3,
+    size: f64,
+    n: usize,
+) -> (Vec<DVec3>, Vec<Vec<usize>>) {
     let axis = random.direction();
     let (across, up) = axis.any_orthonormal_pair();
     let corner = |k: usize, height: f64| {
@@ -155,7 +171,8 @@ pub fn prism(random: &mut Random, center: DVec3, size: f64, n: usize) -> (Vec<DV
     };
     let mut vertices: Vec<DVec3> = (0..n).map(|k| corner(k, -1.0)).collect();
     vertices.extend((0..n).map(|k| corner(k, 1.0)));
-    let mut faces: Vec<Vec<usize>> = (0..n).map(|k| vec![k, (k + 1) % n, n + (k + 1) % n, n + k]).collect();
+    let mut faces: Vec<Vec<usize>> =
+        (0..n).map(|k| vec![k, (k + 1) % n, n + (k + 1) % n, n + k]).collect();
     faces.push((0..n).rev().collect());
     faces.push((n..2 * n).collect());
     (vertices, faces)
@@ -164,8 +181,12 @@ pub fn prism(random: &mut Random, center: DVec3, size: f64, n: usize) -> (Vec<DV
 /// A tetrahedron.
 pub fn tetrahedron(random: &mut Random, center: DVec3, size: f64) -> (Vec<DVec3>, Vec<Vec<usize>>) {
     let turn = glam::DQuat::from_axis_angle(random.direction(), random.between(0.0, 6.0));
-    let corners =
-        [DVec3::ONE, DVec3::new(1.0, -1.0, -1.0), DVec3::new(-1.0, 1.0, -1.0), DVec3::new(-1.0, -1.0, 1.0)];
+    let corners = [
+        DVec3::ONE,
+        DVec3::new(1.0, -1.0, -1.0),
+        DVec3::new(-1.0, 1.0, -1.0),
+        DVec3::new(-1.0, -1.0, 1.0),
+    ];
     let vertices = corners.iter().map(|&p| center + turn * p * size).collect();
     (vertices, vec![vec![0, 1, 2], vec![0, 3, 1], vec![0, 2, 3], vec![1, 3, 2]])
 }

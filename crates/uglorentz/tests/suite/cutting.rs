@@ -10,7 +10,9 @@ use ugpipe::Words;
 use ugscene::{RestFrames, Scene, ShownEffects, VertexId};
 use ugtesting::Random;
 
-use crate::common::{edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
+use crate::common::{
+    edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text,
+};
 
 type Mesh = (Vec<DVec3>, Vec<Vec<usize>>);
 
@@ -43,11 +45,14 @@ fn pieces_cover_their_face_in_its_direction() {
             let whole = parse(&text);
             let scene = seen(&text, &Config { pieces, ..moving(random.direction() * 0.9) });
             let rest = rest(&scene);
-            let names: Vec<&str> = scene.faces.iter().map(|f| scene.names.get(f.name.unwrap())).collect();
+            let names: Vec<&str> =
+                scene.faces.iter().map(|f| scene.names.get(f.name.unwrap())).collect();
             for (idx, face) in whole.faces.iter().enumerate() {
                 let expected = normal(&whole, face, &vertices);
-                let mine = scene.faces.iter().zip(&names).filter(|(_, name)| **name == format!("f{idx}"));
-                let parts: Vec<DVec3> = mine.map(|(piece, _)| normal(&scene, piece, &rest)).collect();
+                let mine =
+                    scene.faces.iter().zip(&names).filter(|(_, name)| **name == format!("f{idx}"));
+                let parts: Vec<DVec3> =
+                    mine.map(|(piece, _)| normal(&scene, piece, &rest)).collect();
                 assert!(parts.iter().all(|part| part.dot(expected) > 0.0), "a piece is turned");
                 let sum: DVec3 = parts.iter().sum();
                 assert!((sum - expected).length() < 1e-12, "{sum} {expected}");
@@ -66,7 +71,10 @@ fn pieces_cover_their_face_in_its_direction() {
 #[test]
 fn names_are_unique() {
     let (vertices, faces) = prism(&mut Random(13), DVec3::new(2.0, 1.0, 0.5), 1.0, 5);
-    let text = text(&vertices, &faces).replace("v1 ", "s#1 ").replace("v1)", "s#1)").replace("v2 ", "s##7 ");
+    let text = text(&vertices, &faces)
+        .replace("v1 ", "s#1 ")
+        .replace("v1)", "s#1)")
+        .replace("v2 ", "s##7 ");
     let scene = seen(&text.replace("v2)", "s##7)"), &moving(DVec3::X * 0.9));
     let names: BTreeSet<&str> = scene.vertices.iter().map(|v| scene.names.get(v.name)).collect();
     assert_eq!(names.len(), scene.vertices.len());
@@ -137,7 +145,8 @@ fn normals(scene: &Scene) -> BTreeMap<(VertexId, VertexId), Vec<DVec3>> {
             let (from, to) = (place(scene, a), place(scene, b));
             let others = corners.iter().filter(|&&corner| corner != a && corner != b);
             let edge = (a.min(b), a.max(b));
-            let normal = |&c: &VertexId| (to - from).cross(place(scene, c) - from).normalize_or_zero();
+            let normal =
+                |&c: &VertexId| (to - from).cross(place(scene, c) - from).normalize_or_zero();
             normals.entry(edge).or_default().extend(others.map(normal));
             names.entry(edge).or_default().insert(face.name.map(|name| scene.names.get(name)));
         }
@@ -155,8 +164,10 @@ fn inside(scene: &Scene, rest: &[DVec3], corners: [VertexId; 3], v: Velocity, wo
     let normal = (drawn[1] - drawn[0]).cross(drawn[2] - drawn[0]).normalize_or_zero();
     let doppler = drawn.map(|corner| doppler_at(corner, v));
     for [i, j] in [[2, 2], [3, 3], [2, 3], [3, 2]] {
-        let weights = [8.0 - f64::from(i + j), f64::from(i), f64::from(j)].map(|weight| weight / 8.0);
-        let mean = |points: [DVec3; 3]| -> DVec3 { points.iter().zip(weights).map(|(&p, w)| p * w).sum() };
+        let weights =
+            [8.0 - f64::from(i + j), f64::from(i), f64::from(j)].map(|weight| weight / 8.0);
+        let mean =
+            |points: [DVec3; 3]| -> DVec3 { points.iter().zip(weights).map(|(&p, w)| p * w).sum() };
         let p = seen_position(mean(rest), v);
         worst.inside = worst.inside.max((p - drawn[0]).dot(normal).abs() / p.length());
         let exact = doppler_at(mean(drawn), v);
@@ -275,9 +286,14 @@ fn chord_errors_of_equal_pieces() {
 fn equal_pieces_are_as_many_as_asked() {
     let check = |face: &str, n: u32, n_faces: usize, n_vertices: usize| {
         let corners = "v a 3 0 0; v b 4 0 0; v c 4 1 0; v d 3 1 0; v e 2.5 0.5 0; v f 3.2 0.2 0; v g 3.2 0.3 0; v h 3.3 0.3 0;";
-        let config = Config { pieces: Pieces::PerEdge(n), eye: Some(DVec3::Z), ..moving(DVec3::X * 0.5) };
+        let config =
+            Config { pieces: Pieces::PerEdge(n), eye: Some(DVec3::Z), ..moving(DVec3::X * 0.5) };
         let scene = seen(&format!("{corners} {face}"), &config);
-        assert_eq!((scene.faces.len(), scene.vertices.len() - 8), (n_faces, n_vertices), "{face} {n}");
+        assert_eq!(
+            (scene.faces.len(), scene.vertices.len() - 8),
+            (n_faces, n_vertices),
+            "{face} {n}"
+        );
     };
     check("f (a b c);", 1, 1, 0);
     check("f (a b c);", 3, 9, 7);
@@ -307,14 +323,20 @@ fn polygons_with_holes_keep_them() {
         (reach - 1.0).abs() < 1e-9 || (reach - 2.0).abs() < 1e-9
     };
     for ((a, b), count) in edges(&scene) {
-        assert!(count == (1, 1) || (on_rim(a) && on_rim(b)), "{:?} {:?}", rest[a.index()], rest[b.index()]);
+        assert!(
+            count == (1, 1) || (on_rim(a) && on_rim(b)),
+            "{:?} {:?}",
+            rest[a.index()],
+            rest[b.index()]
+        );
     }
 }
 
 #[test]
 fn faces_that_cannot_be_triangulated_still_meet_their_neighbours() {
     // A bow tie above a triangle: they share the edge from a to b.
-    let text = "v a -3 2 1; v b 3 2 1; v c -3 3 1; v d 4 5 1; v e 0 2 -4; f bow (a b c d); f low (b a e);";
+    let text =
+        "v a -3 2 1; v b 3 2 1; v c -3 3 1; v d 4 5 1; v e 0 2 -4; f bow (a b c d); f low (b a e);";
     let scene = seen(text, &moving(DVec3::X * 0.9));
     let bow = &scene.faces[0];
     let corners: Vec<VertexId> = scene.face_contours(bow).next().unwrap().to_vec();
@@ -322,8 +344,13 @@ fn faces_that_cannot_be_triangulated_still_meet_their_neighbours() {
     assert_eq!(scene.names.get(scene.faces[1].name.unwrap()), "low");
     let edges = edges(&scene);
     let (a, b) = (find(&scene, "a"), find(&scene, "b"));
-    let along: Vec<VertexId> =
-        corners.iter().copied().skip_while(|&c| c != a).take_while(|&c| c != b).chain([b]).collect();
+    let along: Vec<VertexId> = corners
+        .iter()
+        .copied()
+        .skip_while(|&c| c != a)
+        .take_while(|&c| c != b)
+        .chain([b])
+        .collect();
     for pair in along.windows(2) {
         assert_eq!(edges[&(pair[0].min(pair[1]), pair[0].max(pair[1]))], (1, 1));
     }
@@ -352,7 +379,8 @@ fn comments_and_attributes_go_with_their_faces() {
     // The pieces of each face, and the comments, which come before the first and behind the last.
     let written = String::from_utf8(run(text, &moving(DVec3::X * 0.9)).text()).unwrap();
     let marks = written.lines().filter_map(|line| {
-        let begin = ["f up", "f low", "w", "{"].into_iter().find(|begin| line.starts_with(begin))?;
+        let begin =
+            ["f up", "f low", "w", "{"].into_iter().find(|begin| line.starts_with(begin))?;
         let (_, comment) = line.split_once('{').unwrap_or_default();
         Some(format!("{begin}{comment}"))
     });
@@ -360,11 +388,22 @@ fn comments_and_attributes_go_with_their_faces() {
     marks.dedup();
     assert_eq!(
         marks,
-        ["{ the upper }", "f up", "{ the lower }", "f low", "f low behind it }", "{ the line }", "w"]
+        [
+            "{ the upper }",
+            "f up",
+            "{ the lower }",
+            "f low",
+            "f low behind it }",
+            "{ the line }",
+            "w"
+        ]
     );
     for (row, face) in scene.faces.iter().enumerate() {
         assert_eq!(scene.light_level(face), (named(row as u32) == "up").then_some(0.5));
-        assert!(face.color.is_some() && scene.bodies.stated_velocity(face.body).unwrap().beta().x == 0.9);
+        assert!(
+            face.color.is_some()
+                && scene.bodies.stated_velocity(face.body).unwrap().beta().x == 0.9
+        );
     }
     assert_eq!(scene.head.comments, [" head ", " uglorentz 0.1.0: uglorentz "]);
 }
@@ -376,12 +415,14 @@ fn colours_between_vertices() {
             "c red 1 0 1; c green 0.5 120 0.5 1; c violet 1 330 1; c grey 0.5; c_rgb blue 0 0 1;
              v a 1 1 0 {a}; v b 2 1 0 {b}; v c 2 2 0 {a}; w (a b c);"
         );
-        let scene = run(&text, &Config { pieces: Pieces::PerEdge(2), ..moving(DVec3::X * 0.5) }).scene;
+        let scene =
+            run(&text, &Config { pieces: Pieces::PerEdge(2), ..moving(DVec3::X * 0.5) }).scene;
         let middle = &scene.vertices[3..];
         let lines = String::from_utf8(ugparse::write(&scene)).unwrap();
         let name = middle[0].color.map(|id| scene.names.get(scene.colors[id.index()].name));
-        let statement = name
-            .and_then(|name| lines.lines().find(|l| l.starts_with('c') && l.contains(&format!(" {name} "))));
+        let statement = name.and_then(|name| {
+            lines.lines().find(|l| l.starts_with('c') && l.contains(&format!(" {name} ")))
+        });
         assert_eq!(statement.unwrap_or("none"), expected, "{a} {b}");
         // Both edges mix the same two: one new colour serves them.
         assert!(scene.colors.len() <= 6);
@@ -409,7 +450,13 @@ fn edges_at_the_eye_end_in_bounded_work() {
         let config = Config { pieces: Pieces::UpTo(0.25e-3), ..moving(DVec3::X * 0.99) };
         let outcome = run(text, &config);
         assert!(outcome.scene.faces.len() < 1_000_000, "{}", outcome.scene.faces.len());
-        assert!(outcome.scene.vertices.iter().all(|v| v.position.is_finite() && v.position != DVec3::ZERO));
+        assert!(
+            outcome
+                .scene
+                .vertices
+                .iter()
+                .all(|v| v.position.is_finite() && v.position != DVec3::ZERO)
+        );
         assert!(!outcome.report.is_full);
         assert!(outcome.report.n_too_deep == 0 || outcome.report.remaining_errors.is_some());
     }
@@ -421,21 +468,30 @@ fn edges_at_the_eye_end_in_bounded_work() {
         let outcome = run(text, &Config { measure: true, ..moving(beta * 0.99) });
         assert_eq!(outcome.scene.faces.len(), 1);
         let achieved = outcome.report.remaining_errors.unwrap();
-        assert!((50..1000).contains(&outcome.report.n_new_vertices), "{}", outcome.report.n_new_vertices);
+        assert!(
+            (50..1000).contains(&outcome.report.n_new_vertices),
+            "{}",
+            outcome.report.n_new_vertices
+        );
         assert!(achieved.angle.error <= 1e-4 && achieved.depth.error <= 1e-4, "{achieved:?}");
     }
     // A floor close to the eye slides along in its plane and is seen flat; only colours ask for
     // many pieces.
     for (height, most) in [("1e-3", 100_000), ("1e-8", 1000), ("1e-12", 1000)] {
-        let floor =
-            "v a -10 -10 H; v b 10 -10 H; v c 10 10 H; v d -10 10 H; f (a b c d);".replace('H', height);
-        let n_pieces =
-            |color_error| run(&floor, &Config { color_error, ..moving(DVec3::X * 0.99) }).scene.faces.len();
-        assert!(n_pieces(f64::INFINITY) < most && n_pieces(DEFAULT_COLOR_ERROR) < 250_000, "{height}");
+        let floor = "v a -10 -10 H; v b 10 -10 H; v c 10 10 H; v d -10 10 H; f (a b c d);"
+            .replace('H', height);
+        let n_pieces = |color_error| {
+            run(&floor, &Config { color_error, ..moving(DVec3::X * 0.99) }).scene.faces.len()
+        };
+        assert!(
+            n_pieces(f64::INFINITY) < most && n_pieces(DEFAULT_COLOR_ERROR) < 250_000,
+            "{height}"
+        );
     }
     // Numbers near the ends of their range.
     for size in ["1e-300", "1e200"] {
-        let text = "v a -SIZE SIZE 0; v b SIZE SIZE 0; v c 0 SIZE SIZE; f (a b c);".replace("SIZE", size);
+        let text =
+            "v a -SIZE SIZE 0; v b SIZE SIZE 0; v c 0 SIZE SIZE; f (a b c);".replace("SIZE", size);
         assert!(run(&text, &moving(DVec3::X * 0.999)).scene.faces.len() < 200_000);
     }
     let outcome = run("v a -1 0 0; v b 1 0 0; w (a b);", &moving(DVec3::X * 0.99));
@@ -459,7 +515,9 @@ fn what_is_told_of_errors_is_what_is_measured() {
         assert!(found.offset.max(found.inside) <= told.depth.error * 1.000_001);
         assert!(found.offset.max(found.inside) > 0.8 * told.depth.error);
         assert!(found.doppler <= told.doppler.error, "{} {}", found.doppler, told.doppler.error);
-        assert!(told.angle.at.len() == 2 && outcome.report.details()[1].contains(&told.angle.at[0]));
+        assert!(
+            told.angle.at.len() == 2 && outcome.report.details()[1].contains(&told.angle.at[0])
+        );
     }
 }
 
@@ -475,7 +533,8 @@ fn what_is_out_of_sight_is_not_cut_further() {
             let achieved = outcome.report.remaining_errors.unwrap();
             assert!(achieved.angle.error <= 1.000_001e-4 && achieved.depth.error <= 1.000_001e-4);
             // Euler's formula holds only if pieces share their edges.
-            let euler = |scene: &Scene| scene.vertices.len() + scene.faces.len() - edges(scene).len();
+            let euler =
+                |scene: &Scene| scene.vertices.len() + scene.faces.len() - edges(scene).len();
             assert_eq!(euler(&outcome.scene), 1);
             outcome.scene.faces.len()
         };
@@ -491,9 +550,12 @@ fn comments_go_with_what_is_not_culled() {
         { gone } f (p q r); { gone as well }
         { the second } f (a b c); { behind it }
         cam -ep 0 0 0 -vc 1 0 0;";
-    let written = String::from_utf8(run(text, &Config { cull: true, ..Config::default() }).text()).unwrap();
-    let lines: Vec<&str> = written.lines().filter(|line| !line.starts_with("{ uglorentz")).collect();
-    let expected = "{ of a }\nv a 5 -1 0;\nv b 5 1 0;\nv c 5 0 1;\n{ the second }\nf (a b c); { behind it }";
+    let written =
+        String::from_utf8(run(text, &Config { cull: true, ..Config::default() }).text()).unwrap();
+    let lines: Vec<&str> =
+        written.lines().filter(|line| !line.starts_with("{ uglorentz")).collect();
+    let expected =
+        "{ of a }\nv a 5 -1 0;\nv b 5 1 0;\nv c 5 0 1;\n{ the second }\nf (a b c); { behind it }";
     assert_eq!(lines[..6].join("\n"), expected);
     assert!(lines[6].starts_with("cam "), "{written}");
 }
@@ -510,7 +572,10 @@ fn light_left_over_is_told() {
     assert_eq!(told(f64::INFINITY), (None, false));
     for bound in [0.1, 0.01] {
         let (error, is_said) = told(bound);
-        assert!(is_said && error.is_some_and(|error| error <= bound && error > bound / 10.0), "{error:?}");
+        assert!(
+            is_said && error.is_some_and(|error| error <= bound && error > bound / 10.0),
+            "{error:?}"
+        );
     }
 }
 
@@ -518,8 +583,9 @@ fn light_left_over_is_told() {
 fn colour_is_looked_at_on_request() {
     // Along the motion nothing bends, but D goes from blue to red.
     let text = "v a -9 1 0; v b 9 1 0; w (a b);";
-    let n_new =
-        |color_error: f64| run(text, &Config { color_error, ..moving(DVec3::X * 0.9) }).report.n_new_vertices;
+    let n_new = |color_error: f64| {
+        run(text, &Config { color_error, ..moving(DVec3::X * 0.9) }).report.n_new_vertices
+    };
     let off = n_new(f64::INFINITY);
     let counts = [1e-1, 1e-2, DEFAULT_COLOR_ERROR].map(n_new);
     assert!(off <= counts[0] && counts[0] < counts[1] && counts[1] < counts[2], "{off} {counts:?}");
@@ -528,8 +594,8 @@ fn colour_is_looked_at_on_request() {
 #[test]
 fn bad_numbers_are_refused_with_a_remedy() {
     let check = |config: Config, expected: &str| {
-        let error =
-            uglorentz::apply(parse("v a 0 0 1; v b 1 0 1; v c 0 1 1; f (a b c);"), &config).unwrap_err();
+        let error = uglorentz::apply(parse("v a 0 0 1; v b 1 0 1; v c 0 1 1; f (a b c);"), &config)
+            .unwrap_err();
         assert_eq!(error.words(), expected);
         assert!(error.is_usage());
     };
@@ -538,9 +604,15 @@ fn bad_numbers_are_refused_with_a_remedy() {
         moving(DVec3::X),
         "-vel: speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)",
     );
-    check(moving(DVec3::NAN), "-vel: velocity is not finite: its components must not be infinite or NaN");
+    check(
+        moving(DVec3::NAN),
+        "-vel: velocity is not finite: its components must not be infinite or NaN",
+    );
     check(pieces(Pieces::UpTo(0.0)), "the bound of -se is 0 milliradians: give a number above 0");
-    check(pieces(Pieces::UpTo(f64::NAN)), "the bound of -se is NaN milliradians: give a number above 0");
+    check(
+        pieces(Pieces::UpTo(f64::NAN)),
+        "the bound of -se is NaN milliradians: give a number above 0",
+    );
     check(pieces(Pieces::PerEdge(0)), "-sd 0 would make no pieces: give 1 or more");
     check(
         pieces(Pieces::PerEdge(3000)),
@@ -595,7 +667,8 @@ fn pieces_are_bounded_at_every_speed() {
 /// of bodies that turn and accelerate.
 #[test]
 fn texture_coordinates_are_linear_at_rest() {
-    let vertex = |name: &str, [x, y]: [f64; 2], [u, v]: [f64; 2]| format!("v {name} {x} 3 {y} ({u} {v});\n");
+    let vertex =
+        |name: &str, [x, y]: [f64; 2], [u, v]: [f64; 2]| format!("v {name} {x} 3 {y} ({u} {v});\n");
     // u = 0.5 + 0.25 x, v = 0.75 - 0.5 y + 0.125 x: exact in 32 bits.
     let square = [("a", [-1.0, -1.0]), ("b", [1.0, -1.0]), ("c", [1.0, 1.0]), ("d", [-1.0, 1.0])]
         .map(|(name, [x, y])| vertex(name, [x, y], [0.5 + 0.25 * x, 0.75 - 0.5 * y + 0.125 * x]))

@@ -19,13 +19,17 @@ fn cloud(random: &mut Random, n: usize) -> (String, Vec<DVec3>) {
 fn nothing_changes_at_rest() {
     let mut random = Random(3);
     let (text, _) = cloud(&mut random, 20);
-    let text = format!("{{ mine }} {text} c red 0.5 0 1; f big (v0 v1 v2) (v3 v4 v5) red; w (v0 v9);");
+    let text =
+        format!("{{ mine }} {text} c red 0.5 0 1; f big (v0 v1 v2) (v3 v4 v5) red; w (v0 v9);");
     // Bent faces become triangles when they are read.
-    let before = ugparse::read(&ugparse::Source::new("t.ug", &*text), &ugparse::Options::default(), None);
+    let before =
+        ugparse::read(&ugparse::Source::new("t.ug", &*text), &ugparse::Options::default(), None);
     let before = before.unwrap().scene;
-    for config in
-        [Config::default(), moving(DVec3::ZERO), Config { eye: Some(DVec3::ONE / 3.0), ..Config::default() }]
-    {
+    for config in [
+        Config::default(),
+        moving(DVec3::ZERO),
+        Config { eye: Some(DVec3::ONE / 3.0), ..Config::default() },
+    ] {
         let mut after = seen(&text, &config);
         assert_eq!(after.head.comments.remove(1), " uglorentz 0.1.0: uglorentz ");
         assert_eq!(after.cameras.pop().unwrap().eye, Some(config.eye.unwrap_or(DVec3::ZERO)));
@@ -60,7 +64,8 @@ fn a_later_picture_is_that_of_a_scene_further_on() {
             // In S every point of the body has moved by v t; at time 0 it is contracted about the
             // eye.
             let now = if contraction { contracted(p, v) } else { p } + beta * time;
-            let expected = if flight_time { now + ugphysics::flight_time(now, v) * beta } else { now };
+            let expected =
+                if flight_time { now + ugphysics::flight_time(now, v) * beta } else { now };
             assert!((found - expected).length() < 1e-12, "{geometry:?} {time}");
         }
     }
@@ -100,16 +105,25 @@ fn bodies_in_place_are_seen_where_the_scene_has_them() {
     let eye = DVec3::new(-2.0, 1.0, 0.5);
     let p = DVec3::new(1.0, 2.0, -3.0);
     for beta in [DVec3::new(0.3, -0.5, 0.6), DVec3::new(0.0, 0.999, 0.0)] {
-        for (contraction, flight_time) in [(true, true), (true, false), (false, true), (false, false)] {
+        for (contraction, flight_time) in
+            [(true, true), (true, false), (false, true), (false, false)]
+        {
             let geometry = ShownEffects { contraction, flight_time };
-            let config = |anchor| Config { anchor, in_place: true, geometry, eye: Some(eye), ..moving(beta) };
+            let config = |anchor| Config {
+                anchor,
+                in_place: true,
+                geometry,
+                eye: Some(eye),
+                ..moving(beta)
+            };
             let found = seen_at(p, &config(Some(Anchor::Point(p))));
             assert!((found - p).length() < 1e-11, "{geometry:?} {found}");
             // Without an anchor it is the centre of the box: the vertex of a small box there hardly
             // moves.
             let text = "v a 3 3 3; v b 3.000002 3 3; v c 3 3.000002 3.000002; f (a b c);";
             let scene = seen(text, &config(None));
-            let off = scene.vertices.iter().map(|v| (v.position - DVec3::splat(3.000_001)).length());
+            let off =
+                scene.vertices.iter().map(|v| (v.position - DVec3::splat(3.000_001)).length());
             // Seen sizes change by up to γ(1 + β), here 45.
             assert!(off.fold(0.0, f64::max) < 2e-4);
         }
@@ -120,7 +134,8 @@ fn bodies_in_place_are_seen_where_the_scene_has_them() {
 fn time_runs_on_for_bodies_in_place() {
     let beta = DVec3::new(0.0, 0.8, 0.0);
     let p = DVec3::new(5.0, 1.0, 0.0);
-    let config = Config { anchor: Some(Anchor::Point(p)), in_place: true, time: 2.0, ..moving(beta) };
+    let config =
+        Config { anchor: Some(Anchor::Point(p)), in_place: true, time: 2.0, ..moving(beta) };
     let found = seen_at(p, &config);
     // Its light left at −|p|, when it was at p; at 2 it is seen where v(t + |p|) from p is t + 2
     // light-seconds off.
@@ -136,7 +151,8 @@ fn bodies_with_their_own_velocities() {
     let uncut = Config { pieces: Pieces::PerEdge(1), ..Config::default() };
     let scene = seen(text, &uncut);
     let beta = |name: &str| {
-        let face = scene.faces.iter().find(|f| f.name.map(|n| scene.names.get(n)) == Some(name)).unwrap();
+        let face =
+            scene.faces.iter().find(|f| f.name.map(|n| scene.names.get(n)) == Some(name)).unwrap();
         let velocity = scene.bodies.stated_velocity(face.body).map(Velocity::beta);
         (velocity, scene.face_contours(face).next().unwrap()[0])
     };
@@ -151,9 +167,14 @@ fn bodies_with_their_own_velocities() {
     assert_eq!(place(&scene, find(&scene, "lone")), DVec3::splat(7.0));
     // -vel overrides them all, and unused vertices follow.
     let scene = seen(text, &moving(DVec3::new(0.0, 0.0, 0.6)));
-    assert!(scene.faces.iter().all(|f| scene.bodies.stated_velocity(f.body).unwrap().beta().z == 0.6));
+    assert!(
+        scene.faces.iter().all(|f| scene.bodies.stated_velocity(f.body).unwrap().beta().z == 0.6)
+    );
     let v = Velocity::from_beta(DVec3::new(0.0, 0.0, 0.6)).unwrap();
-    assert!((place(&scene, find(&scene, "lone")) - seen_position(DVec3::splat(7.0), v)).length() < 1e-13);
+    assert!(
+        (place(&scene, find(&scene, "lone")) - seen_position(DVec3::splat(7.0), v)).length()
+            < 1e-13
+    );
     // -vel 0 stops them; who had a velocity says so.
     let scene = seen(text, &moving(DVec3::ZERO));
     let said: Vec<bool> = scene.faces.iter().map(|f| f.body != scene.bodies.unstated()).collect();
@@ -169,10 +190,13 @@ fn lamps_move_with_a_single_body() {
     };
     let light = "l 1 5 5 5 0; l 1 0 0 1;";
     let config = Config { time: 2.0, ..Config::default() };
-    let one = seen(&format!("v a 1 2 3; v b 2 2 3; v c 1 3 3; f (a b c) <0.6 0 0>; {light}"), &config);
+    let one =
+        seen(&format!("v a 1 2 3; v b 2 2 3; v c 1 3 3; f (a b c) <0.6 0 0>; {light}"), &config);
     assert!((lamp(&one) - DVec3::new(5.0 + 1.25 * 0.6 * 2.0, 5.0, 5.0)).length() < 1e-14);
-    let two =
-        seen(&format!("v a 1 2 3; v b 2 2 3; v c 1 3 3; f (a b c) <0.6 0 0>; f (a b c); {light}"), &config);
+    let two = seen(
+        &format!("v a 1 2 3; v b 2 2 3; v c 1 3 3; f (a b c) <0.6 0 0>; f (a b c); {light}"),
+        &config,
+    );
     assert_eq!(lamp(&two), DVec3::splat(5.0));
 }
 

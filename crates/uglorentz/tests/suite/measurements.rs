@@ -17,12 +17,17 @@ fn measured(a: DVec3, beta: DVec3, config: Config) -> impl Fn(&str) -> f64 {
     let headings: Vec<String> = lines.next().unwrap().split(',').map(str::to_string).collect();
     let words: Vec<String> = lines.next().unwrap().split(',').map(str::to_string).collect();
     assert_eq!(words[0], "a");
-    move |heading| words[headings.iter().position(|other| other == heading).unwrap()].parse().unwrap()
+    move |heading| {
+        words[headings.iter().position(|other| other == heading).unwrap()].parse().unwrap()
+    }
 }
 
 #[track_caller]
 fn near(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance * expected.abs().max(1.0), "{found} for {expected}");
+    assert!(
+        (found - expected).abs() <= tolerance * expected.abs().max(1.0),
+        "{found} for {expected}"
+    );
 }
 
 #[test]
@@ -58,7 +63,8 @@ fn rows_are_those_of_the_scene_and_of_the_equations() {
     }
 }
 
-const HOUSE: &str = "v a:1 1 2 2; v b 3 2 2; v c 3 4 2; v d 1 4 2; v e 2 2.5 2; v g 2.5 3 2; v h 2 3 2;
+const HOUSE: &str =
+    "v a:1 1 2 2; v b 3 2 2; v c 3 4 2; v d 1 4 2; v e 2 2.5 2; v g 2.5 3 2; v h 2 3 2;
     v at#eye 0 0 0; f (a:1 b c d) (e g h); f (a:1 b c);";
 
 #[test]
@@ -71,8 +77,11 @@ fn at_rest_nothing_is_shifted() {
 #[test]
 fn without_flight_time_light_leaves_at_the_time_of_the_picture() {
     let geometry = ugscene::ShownEffects { contraction: true, flight_time: false };
-    let at =
-        measured(DVec3::new(1.0, 2.0, 2.0), DVec3::ZERO, Config { geometry, time: 5.0, ..Config::default() });
+    let at = measured(
+        DVec3::new(1.0, 2.0, 2.0),
+        DVec3::ZERO,
+        Config { geometry, time: 5.0, ..Config::default() },
+    );
     near(at("emission_time"), 5.0, 0.0);
     near(at("distance"), 3.0, 0.0);
 }
@@ -119,8 +128,9 @@ fn vtk_array(text: &str, name: &str) -> Vec<[u8; 8]> {
 fn vtk_has_the_numbers_of_the_table() {
     let config = moving(DVec3::new(0.6, -0.2, 0.1));
     let (vtk, csv) = (table(HOUSE, &config, Table::Vtp), table(HOUSE, &config, Table::Csv));
-    let numbers =
-        |name: &str| -> Vec<f64> { vtk_array(&vtk, name).into_iter().map(f64::from_le_bytes).collect() };
+    let numbers = |name: &str| -> Vec<f64> {
+        vtk_array(&vtk, name).into_iter().map(f64::from_le_bytes).collect()
+    };
     let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let column = |name: &str| -> Vec<f64> {
@@ -142,8 +152,9 @@ fn vtk_has_the_numbers_of_the_table() {
         near(DVec3::from_slice(velocity).distance(expected), 0.0, 1e-15);
     }
     // The corners of polygons, each up to its offset, which is where the next begins.
-    let ints =
-        |name: &str| -> Vec<i64> { vtk_array(&vtk, name).into_iter().map(i64::from_le_bytes).collect() };
+    let ints = |name: &str| -> Vec<i64> {
+        vtk_array(&vtk, name).into_iter().map(i64::from_le_bytes).collect()
+    };
     let (corners, ends) = (ints("connectivity"), ints("offsets"));
     assert_eq!(ends.last(), Some(&(corners.len() as i64)));
     assert!(ends.is_sorted() && corners.iter().all(|&corner| (0..n as i64).contains(&corner)));

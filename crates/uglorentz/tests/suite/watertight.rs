@@ -38,13 +38,19 @@ fn tube(random: &mut Random, n: usize) -> Solid {
 
 /// `n` corners below and `n` above, at two distances from the axis in turn, and the sides between
 /// them, seen from outside; numbers count from `first`.
-fn ring(random: &mut Random, n: usize, reach: [f64; 2], first: usize) -> (Vec<DVec3>, Vec<Vec<usize>>) {
+fn ring(
+    random: &mut Random,
+    n: usize,
+    reach: [f64; 2],
+    first: usize,
+) -> (Vec<DVec3>, Vec<Vec<usize>>) {
     let turn = random.between(0.0, 1.0);
     let corner = |k: usize, height: f64| {
         let (sin, cos) = libm::sincos(std::f64::consts::TAU * (k as f64 + turn) / n as f64);
         DVec3::new(cos * reach[k % 2], sin * reach[k % 2], height)
     };
-    let corners = [-0.7, 0.7].iter().flat_map(|&height| (0..n).map(move |k| corner(k, height))).collect();
+    let corners =
+        [-0.7, 0.7].iter().flat_map(|&height| (0..n).map(move |k| corner(k, height))).collect();
     let side = |k: usize| {
         let next = (k + 1) % n;
         [k, next, n + next, n + k].map(|corner| first + corner).to_vec()
@@ -75,10 +81,12 @@ fn append(text: &mut String, body: usize, (corners, faces): &Solid, beta: DVec3)
     }
     for contours in faces {
         let name = |corner: &usize| format!("b{body}v{corner}");
-        let contour =
-            |corners: &Vec<usize>| format!("({})", corners.iter().map(name).collect::<Vec<_>>().join(" "));
+        let contour = |corners: &Vec<usize>| {
+            format!("({})", corners.iter().map(name).collect::<Vec<_>>().join(" "))
+        };
         let contours: Vec<String> = contours.iter().map(contour).collect();
-        writeln!(text, "f {} <{:?} {:?} {:?}>;", contours.join(" "), beta.x, beta.y, beta.z).unwrap();
+        writeln!(text, "f {} <{:?} {:?} {:?}>;", contours.join(" "), beta.x, beta.y, beta.z)
+            .unwrap();
     }
 }
 
@@ -136,10 +144,14 @@ fn edges_are_cut_at_vertices_of_other_faces() {
         // The slope of the common edge.
         let border = |z: f64| 0.1 * z;
         let mut text = String::new();
-        let mut vertex = |name: &str, p: DVec3| writeln!(text, "v {name} {:?} {:?} {:?};", p.x, p.y, p.z);
-        for (name, x, z) in
-            [("a", -4.0, -3.0), ("b", border(-3.0), -3.0), ("c", border(3.0), 3.0), ("d", -4.0, 3.0)]
-        {
+        let mut vertex =
+            |name: &str, p: DVec3| writeln!(text, "v {name} {:?} {:?} {:?};", p.x, p.y, p.z);
+        for (name, x, z) in [
+            ("a", -4.0, -3.0),
+            ("b", border(-3.0), -3.0),
+            ("c", border(3.0), 3.0),
+            ("d", -4.0, 3.0),
+        ] {
             vertex(name, place(x, z)).unwrap();
         }
         for (k, &z) in heights.iter().enumerate() {
@@ -149,13 +161,15 @@ fn edges_are_cut_at_vertices_of_other_faces() {
         let beta = random.direction() * [0.3, 0.9, 0.99][case as usize % 3];
         // The motions of two bodies with names are alike.
         let motion = format!("-vel {:?} {:?} {:?}", beta.x, beta.y, beta.z);
-        writeln!(text, "motion one {motion}; motion two {motion}; c red 1 0 1; c blue 1 240 1;").unwrap();
+        writeln!(text, "motion one {motion}; motion two {motion}; c red 1 0 1; c blue 1 240 1;")
+            .unwrap();
         writeln!(text, "f (a b c d) red <one>;").unwrap();
         for k in 0..n {
             let body = if case % 2 == 0 { "one" } else { "two" };
             writeln!(text, "f (p{k} q{k} q{} p{}) blue <{body}>;", k + 1, k + 1).unwrap();
         }
-        let found = run(&text, &Config { geometry: ShownEffects::default(), ..Config::default() }).scene;
+        let found =
+            run(&text, &Config { geometry: ShownEffects::default(), ..Config::default() }).scene;
         let frames = RestFrames::new(&found);
         let rest = ugscene::rest_positions(&found, DVec3::ZERO, &frames);
         let is_on_border = |row: usize| {
@@ -164,10 +178,14 @@ fn edges_are_cut_at_vertices_of_other_faces() {
         };
         let of_color = |name: &str| -> BTreeSet<[u64; 3]> {
             let is_one = |face: &&ugscene::Face| {
-                face.color.is_some_and(|color| found.names.get(found.colors[color.index()].name) == name)
+                face.color
+                    .is_some_and(|color| found.names.get(found.colors[color.index()].name) == name)
             };
-            let corners =
-                found.faces.iter().filter(is_one).flat_map(|face| found.face_contours(face).flatten());
+            let corners = found
+                .faces
+                .iter()
+                .filter(is_one)
+                .flat_map(|face| found.face_contours(face).flatten());
             let rows = corners.map(|corner| corner.index()).filter(|&row| is_on_border(row));
             rows.map(|row| found.vertices[row].position.to_array().map(f64::to_bits)).collect()
         };

@@ -24,7 +24,8 @@ pub(super) fn write_glb(mesh: &mut PolygonMesh) -> Result<Vec<u8>, Error> {
     let mut json = document.to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     buffer.resize(buffer.len().next_multiple_of(4), 0);
-    let chunks = [(json, b"JSON"), (buffer, b"BIN\0")].into_iter().filter(|(chunk, _)| !chunk.is_empty());
+    let chunks =
+        [(json, b"JSON"), (buffer, b"BIN\0")].into_iter().filter(|(chunk, _)| !chunk.is_empty());
     let chunks: Vec<_> = chunks.collect();
     let length: usize = 12 + chunks.iter().map(|(chunk, _)| 8 + chunk.len()).sum::<usize>();
     let length = u32::try_from(length).map_err(|_| Error::TooLarge)?;
@@ -76,30 +77,41 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         let mut textures = vec![(None, None); colors.len()];
         for group in &groups {
             let row = |list: &[&Option<String>], name| list.iter().position(|&other| other == name);
-            let (Some(at), Some(material)) = (row(&names, &group.name), row(&colors, &group.color)) else {
+            let (Some(at), Some(material)) = (row(&names, &group.name), row(&colors, &group.color))
+            else {
                 continue;
             };
-            is_transparent[material] |= group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
+            is_transparent[material] |=
+                group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
             textures[material] = (group.texture.clone(), group.emitted.clone());
             let indices = indices(mesh, &group.polygons, &mut buffer);
             meshes[at].push(
                 json!({ "attributes": attributes, "indices": indices, "material": material, "mode": 4 }),
             );
         }
-        let mut nodes: Vec<Value> =
-            names.iter().enumerate().map(|(row, name)| named(json!({ "mesh": row }), name)).collect();
+        let mut nodes: Vec<Value> = names
+            .iter()
+            .enumerate()
+            .map(|(row, name)| named(json!({ "mesh": row }), name))
+            .collect();
         nodes.extend(document["nodes"].as_array().cloned().unwrap_or_default());
         document["scene"] = 0.into();
         document["scenes"] = json!([{ "nodes": Vec::from_iter(0..nodes.len()) }]);
         document["nodes"] = nodes.into();
         let meshes = meshes.into_iter().zip(&names);
-        document["meshes"] = meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
+        document["meshes"] =
+            meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
         let mut pictures = Pictures::default();
         let materials = is_transparent.into_iter().zip(&textures).zip(&colors);
         let materials = materials.map(|((is_clear, (texture, emitted)), name)| {
             let mut material = material(is_clear);
             if let Some((light, texture)) = emitted {
-                pictures.add_emitted((*light, texture.as_ref()), &mut material, &mut buffer, &mut mesh.notes);
+                pictures.add_emitted(
+                    (*light, texture.as_ref()),
+                    &mut material,
+                    &mut buffer,
+                    &mut mesh.notes,
+                );
             }
             if let Some(texture) = texture {
                 pictures.add(texture, &mut material, &mut buffer, &mut mesh.notes);
@@ -112,7 +124,8 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         document["bufferViews"] = Value::Array(buffer.views);
         document["buffers"] = json!([{ "byteLength": buffer.bytes.len() }]);
         if let Some(uri) = uri {
-            document["buffers"][0]["uri"] = (uri.to_string() + &BASE64_STANDARD.encode(&buffer.bytes)).into();
+            document["buffers"][0]["uri"] =
+                (uri.to_string() + &BASE64_STANDARD.encode(&buffer.bytes)).into();
         }
     }
     (document, buffer.bytes)
@@ -128,7 +141,9 @@ fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
     let right = up.cross(backward).normalize();
     let axes = [right, backward.cross(right), backward];
     let mut matrix = [0.0; 16];
-    for (column, (axis, w)) in axes.into_iter().map(|axis| (axis, 0.0)).chain([(eye, 1.0)]).enumerate() {
+    for (column, (axis, w)) in
+        axes.into_iter().map(|axis| (axis, 0.0)).chain([(eye, 1.0)]).enumerate()
+    {
         let row = axis.extend(w).as_vec4().to_array();
         matrix[4 * column..][..4].copy_from_slice(&row);
     }
@@ -136,7 +151,8 @@ fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
     let [near, far] = CLIP.map(|part| number(part * eye.distance(center)));
     let lens = match (camera.view_angle, camera.film_size) {
         (Some([across, down]), _) => {
-            let [across, down] = [across, down].map(|degrees| libm::tan(degrees.to_radians() / 2.0));
+            let [across, down] =
+                [across, down].map(|degrees| libm::tan(degrees.to_radians() / 2.0));
             json!({ "type": "perspective", "perspective": {
                 "aspectRatio": number(across / down), "yfov": 2.0 * libm::atan(down), "znear": near, "zfar": far,
             } })
@@ -194,7 +210,12 @@ struct Pictures {
 
 impl Pictures {
     /// Adds a texture; its row, unless glTF has no such pictures.
-    fn row(&mut self, texture: &Texture, buffer: &mut Buffer, notes: &mut Vec<String>) -> Option<usize> {
+    fn row(
+        &mut self,
+        texture: &Texture,
+        buffer: &mut Buffer,
+        notes: &mut Vec<String>,
+    ) -> Option<usize> {
         let bytes = &texture.image.bytes;
         let kind = match bytes[..] {
             [0x89, b'P', b'N', b'G', ..] => "image/png",
@@ -227,7 +248,8 @@ impl Pictures {
         buffer: &mut Buffer,
         notes: &mut Vec<String>,
     ) {
-        let picture = texture.and_then(|texture| Some((texture, self.row(texture, buffer, notes)?)));
+        let picture =
+            texture.and_then(|texture| Some((texture, self.row(texture, buffer, notes)?)));
         let factor = match picture {
             Some((texture, number)) => {
                 material["emissiveTexture"] = json!({ "index": number });
@@ -245,7 +267,13 @@ impl Pictures {
     }
 
     /// Adds a texture and describes it in its material.
-    fn add(&mut self, texture: &Texture, material: &mut Value, buffer: &mut Buffer, notes: &mut Vec<String>) {
+    fn add(
+        &mut self,
+        texture: &Texture,
+        material: &mut Value,
+        buffer: &mut Buffer,
+        notes: &mut Vec<String>,
+    ) {
         let Some(number) = self.row(texture, buffer, notes) else { return };
         let surface = &mut material["pbrMetallicRoughness"];
         surface["baseColorTexture"] = json!({ "index": number });
@@ -294,7 +322,8 @@ fn attributes(mesh: &mut PolygonMesh, buffer: &mut Buffer) -> Value {
 
     match mesh.normals() {
         Some(normals) => {
-            let normals: Vec<[f32; 3]> = normals.iter().map(|normal| normal.as_vec3().to_array()).collect();
+            let normals: Vec<[f32; 3]> =
+                normals.iter().map(|normal| normal.as_vec3().to_array()).collect();
             attributes["NORMAL"] = buffer.rows(&normals, "VEC3").into();
         }
         None if mesh.scene.vertices.iter().any(|vertex| vertex.normal.is_some()) => {
@@ -357,7 +386,14 @@ impl Buffer {
     }
 
     /// Appends data and describes it by a view and an accessor. Returns the index of the accessor.
-    fn add(&mut self, bytes: &[u8], count: usize, component: u32, kind: &str, target: u32) -> usize {
+    fn add(
+        &mut self,
+        bytes: &[u8],
+        count: usize,
+        component: u32,
+        kind: &str,
+        target: u32,
+    ) -> usize {
         self.views.push(json!({
             "buffer": 0,
             "byteOffset": self.bytes.len(),

@@ -12,7 +12,11 @@ use crate::{Error, Target};
 
 /// The file content for a scene in a format, and notes. `is_placed`: positions were scaled, moved
 /// or turned, so that they are not those seen from the eye of the scene any more.
-pub(crate) fn write(scene: Scene, target: Target, is_placed: bool) -> Result<(Vec<u8>, Vec<String>), Error> {
+pub(crate) fn write(
+    scene: Scene,
+    target: Target,
+    is_placed: bool,
+) -> Result<(Vec<u8>, Vec<String>), Error> {
     let (polygons, writer): (Polygons, Writer) = match target {
         Target::Ug => return Ok((ugparse::write(&scene), Vec::new())),
         Target::Obj => (Polygons::Simple, |mesh| Ok(obj::write(mesh))),

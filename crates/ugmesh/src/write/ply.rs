@@ -15,7 +15,8 @@ fn write_all(mesh: &PolygonMesh, is_ascii: bool, out: &mut Vec<u8>) -> io::Resul
     let vertices = &mesh.scene.vertices;
     let normals = mesh.normals();
     let is_narrow = |x: f64| f64::from(x as f32) == x;
-    let is_float = vertices.iter().all(|vertex| vertex.position.to_array().into_iter().all(is_narrow));
+    let is_float =
+        vertices.iter().all(|vertex| vertex.position.to_array().into_iter().all(is_narrow));
     let n_parts = if mesh.is_transparent() { 4 } else { 3 };
     let longest = (0..mesh.polygons.len() as u32).map(|row| mesh.polygons.get(row).len()).max();
     let is_short = longest.unwrap_or(0) <= usize::from(u8::MAX);
@@ -44,7 +45,11 @@ fn write_all(mesh: &PolygonMesh, is_ascii: bool, out: &mut Vec<u8>) -> io::Resul
     let mut row = Row { out, is_ascii };
     for (idx, vertex) in vertices.iter().enumerate() {
         for x in vertex.position.to_array() {
-            if is_float { row.number(x as f32, f32::to_le_bytes)? } else { row.number(x, f64::to_le_bytes)? }
+            if is_float {
+                row.number(x as f32, f32::to_le_bytes)?
+            } else {
+                row.number(x, f64::to_le_bytes)?
+            }
         }
         for x in normals.iter().flat_map(|normals| normals[idx].to_array()) {
             row.number(x as f32, f32::to_le_bytes)?;

@@ -24,14 +24,16 @@ fn a_mesh_goes_through_a_pipe_and_back() {
     assert!(origin.starts_with("{ SHA-256 ") && origin.ends_with(" cube.obj }"), "{origin}");
     assert!(rest.starts_with(&head), "{text}");
     assert!(
-        text.contains("c_rgb cube_red 1 0 0;\n") && text.contains("f (cube_v1 cube_v2 cube_v5) cube_red;\n"),
+        text.contains("c_rgb cube_red 1 0 0;\n")
+            && text.contains("f (cube_v1 cube_v2 cube_v5) cube_red;\n"),
         "{text}"
     );
 
     let ply = ugmesh.output("-dt ply", &text);
     assert!(ply.starts_with(b"ply\nformat binary_little_endian 1.0\n"));
 
-    let files = [("out.obj", "", 5), ("out.ply", "-ascii", 5), ("out.gltf", "", 6), ("out.glb", "", 6)];
+    let files =
+        [("out.obj", "", 5), ("out.ply", "-ascii", 5), ("out.gltf", "", 6), ("out.glb", "", 6)];
     for (name, options, expected) in files {
         assert!(ugmesh.output(&format!("{options} -fo {name}"), &text).is_empty());
         let back = ugmesh.text(&format!("-fi {name}"), "");
@@ -46,8 +48,7 @@ fn a_stage_is_written_to_scenes_only() {
     let count = |word: &str| text.lines().filter(|line| line.starts_with(word)).count();
     assert_eq!((count("cam -ep "), count("l ")), (1, 2), "{text}");
     // Other formats have no such statements.
-    let message =
-        "ugmesh: error: -stage writes statements of UniGrafix; leave out -dt and the ending of -fo\n";
+    let message = "ugmesh: error: -stage writes statements of UniGrafix; leave out -dt and the ending of -fo\n";
     UGMESH.refuses("-dt obj --stage", &text, 2, message);
 }
 
@@ -66,15 +67,17 @@ fn scenes_may_include_files() {
     let ugmesh = UGMESH.in_folder(&folder);
     fs::write(folder.path().join("corners.ug"), "v a 0 0 0; v b 1 0 0; v c 0 1 0;").unwrap();
     fs::write(folder.path().join("scene.ug"), "include corners.ug; f (a b c);").unwrap();
-    assert_eq!(ugmesh.text("-dt obj scene.ug", "").lines().filter(|line| line.starts_with("v ")).count(), 3);
+    assert_eq!(
+        ugmesh.text("-dt obj scene.ug", "").lines().filter(|line| line.starts_with("v ")).count(),
+        3
+    );
     fs::write(folder.path().join("scene.ug"), "execute corners.ug; f (a b c);").unwrap();
     ugmesh.refuses("-dt obj scene.ug", "", 1, "program `corners.ug` is not run");
 }
 
 #[test]
 fn bad_usage_is_status_2() {
-    let ending =
-        "the extension of `x.stl` is none of the formats ug, obj, ply, gltf, glb and vtp; name one with -dt";
+    let ending = "the extension of `x.stl` is none of the formats ug, obj, ply, gltf, glb and vtp; name one with -dt";
     for (args, message) in [
         ("-scale 0", "sizes (-scale, -fit) must be above 0"),
         ("-fit -1", "sizes (-scale, -fit) must be above 0"),

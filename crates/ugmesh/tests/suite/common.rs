@@ -59,7 +59,11 @@ pub fn seen(scene: &Scene) -> Vec<Vec<Corner>> {
         }
     };
     let outline = |face: &ugscene::Face| scene.face_contours(face).next().unwrap().to_vec();
-    scene.faces.iter().map(|face| outline(face).iter().map(|id| corner(face, id)).collect()).collect()
+    scene
+        .faces
+        .iter()
+        .map(|face| outline(face).iter().map(|id| corner(face, id)).collect())
+        .collect()
 }
 
 /// A GLB file.

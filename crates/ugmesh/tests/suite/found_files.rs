@@ -35,7 +35,8 @@ fn text_of_other_programs_is_read() {
         );
     }
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    let obj = |rest: &str, warning: &str| check("a.obj", &format!("{points}{rest}"), TRIANGLE, warning);
+    let obj =
+        |rest: &str, warning: &str| check("a.obj", &format!("{points}{rest}"), TRIANGLE, warning);
     obj("f 1 2 3 # a comment", "");
     obj("fo 1 2 3", "");
     obj("usemtl none\t# a comment\nf 1 2 3", "materials without colour: `none`");
@@ -44,7 +45,8 @@ fn text_of_other_programs_is_read() {
     obj("mtllib a/b.mtl\nf 1 2 3", "colours are missing: cannot read `a/b.mtl`: entity not found");
 
     let stl = |text: &str| check("a.stl", text, TRIANGLE, "");
-    let facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet";
+    let facet =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet";
     stl(&format!("solid a part {facet} endsolid a part"));
     stl(&format!("\u{feff}SOLID a\n{}\nEndSolid a\n", facet.replace("vertex", "VERTEX")));
     stl(&format!("solid vertex of 3\n{facet}\nendsolid"));
@@ -64,8 +66,7 @@ fn text_of_other_programs_is_read() {
     let more = "the file goes on after what its header declares: the rest is not read";
     check("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", TRIANGLE, more);
 
-    let head =
-        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n";
+    let head = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n";
     let faces = "element face 1\nproperty list uchar int vertex_indices\n";
     let ply = |rest: &str| check("a.ply", rest, TRIANGLE, "");
     ply(&format!(
@@ -74,11 +75,14 @@ fn text_of_other_programs_is_read() {
     ply(&format!(
         "\u{feff}ply\r\nformat ascii 1.0\r\n{head}{faces}end_header\r\n0 0 0 1 1 0 0 1 0 1 0 1 3 0 1 2"
     ));
-    let longer =
-        format!("ply\nformat ascii 1.0\n{head}{faces}end_header\n0 0 0 1 1 0 0 1 0 1 0 1 3 0 1 2 3 0 1 2");
+    let longer = format!(
+        "ply\nformat ascii 1.0\n{head}{faces}end_header\n0 0 0 1 1 0 0 1 0 1 0 1 3 0 1 2 3 0 1 2"
+    );
     check("a.ply", &longer, TRIANGLE, more);
     // Faces before vertices.
-    ply(&format!("ply\nformat ascii 1.0\n{faces}{head}end_header\n3 0 1 2\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"));
+    ply(&format!(
+        "ply\nformat ascii 1.0\n{faces}{head}end_header\n3 0 1 2\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+    ));
 }
 
 #[test]
@@ -126,9 +130,16 @@ fn materials_of_other_programs_are_read() {
         let files = [("a.mtl", mtl.as_bytes()), ("my tex.png", &png), ("deep/tex.png", &png)];
         let (text, warnings) = shown(&run("a.obj", obj.as_bytes(), &files));
         assert!(text.starts_with(color), "{text}");
-        assert!(warnings.contains(warning) && warnings.is_empty() == warning.is_empty(), "{warnings}");
+        assert!(
+            warnings.contains(warning) && warnings.is_empty() == warning.is_empty(),
+            "{warnings}"
+        );
     }
-    check("newmtl m\nKd spectral a.rfl 1", "c_rgb m 0.8 0.8 0.8;", "the colour of material `m` is not read");
+    check(
+        "newmtl m\nKd spectral a.rfl 1",
+        "c_rgb m 0.8 0.8 0.8;",
+        "the colour of material `m` is not read",
+    );
     check(
         "newmtl m\nKd 0 0 0\nmap_Kd my tex.png",
         "c_rgb m 1 0 0;",
@@ -140,18 +151,31 @@ fn materials_of_other_programs_are_read() {
     }
     let textured = "c_rgb m 1 0 0; c_tex m \"my tex.png\"";
     check("newmtl m # c\nkd 1 1 1 # c\nMAP_Kd my tex.png # c", textured, "");
-    check("newmtl m\nKd 1 1 1\nmap_Kd -clamp on \"my tex.png\"", &format!("{textured} -wrap clamp;"), "");
+    check(
+        "newmtl m\nKd 1 1 1\nmap_Kd -clamp on \"my tex.png\"",
+        &format!("{textured} -wrap clamp;"),
+        "",
+    );
     check("newmtl m\nKd 1 0 0\nmap_Kd", "c_rgb m 1 0 0; v v1", "");
     let lfs = "colours are missing: `C:\\work\\a.mtl` is a Git LFS pointer";
     check("version https://git-lfs.github.com/spec/v1\n", "v v1 ", lfs);
-    check("newmtl m\nKd 1 1 1\nmap_Kd deep\\tex.png", "c_rgb m 1 0 0; c_tex m \"deep/tex.png\";", "");
-    check("newmtl m\nKd 1 1 1\nmap_Kd D:\\x\\my tex.png", "c_rgb m 1 0 0; c_tex m \"my tex.png\";", "");
+    check(
+        "newmtl m\nKd 1 1 1\nmap_Kd deep\\tex.png",
+        "c_rgb m 1 0 0; c_tex m \"deep/tex.png\";",
+        "",
+    );
+    check(
+        "newmtl m\nKd 1 1 1\nmap_Kd D:\\x\\my tex.png",
+        "c_rgb m 1 0 0; c_tex m \"my tex.png\";",
+        "",
+    );
 }
 
 /// Coordinates of pictures are scaled and moved as `map_Kd` says, whose v is upwards.
 #[test]
 fn pictures_are_where_materials_place_them() {
-    let png = ugimage::Format::Png.encode(&ugimage::Frame::opaque(1, 1), &ugimage::Metadata::default());
+    let png =
+        ugimage::Format::Png.encode(&ugimage::Frame::opaque(1, 1), &ugimage::Metadata::default());
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt .5 .25\nusemtl m\nf 1/1 2/2 3/2";
     for (options, expected) in [
         ("", ["(0 1)", "(0.5 0.75)"]),
@@ -159,7 +183,8 @@ fn pictures_are_where_materials_place_them() {
         ("-o .5 ", ["(0.5 1)", "(1 0.75)"]),
     ] {
         let mtl = format!("newmtl m\nmap_Kd {options}a.png");
-        let (text, _) = shown(&run("a.obj", obj.as_bytes(), &[("a.mtl", mtl.as_bytes()), ("a.png", &png)]));
+        let (text, _) =
+            shown(&run("a.obj", obj.as_bytes(), &[("a.mtl", mtl.as_bytes()), ("a.png", &png)]));
         let [first, second] = expected;
         let vertices = format!("v v1 0 0 0 {first}; v v2 1 0 0 {second}; v v3 0 1 0 {second};");
         assert!(text.contains(&vertices), "{options}: {text}");
@@ -227,8 +252,7 @@ fn gltf_needs_only_what_is_read() {
     check("", hidden, "", "", "the mesh has no faces");
     let webp = r#","extensionsRequired":["EXT_texture_webp"],"textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],
         "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0}}}]"#;
-    let missing =
-        "texture `texture 0`: it has no PNG or JPEG picture; its faces have the colour of their material";
+    let missing = "texture `texture 0`: it has no PNG or JPEG picture; its faces have the colour of their material";
     check(webp, "", r#","material":0"#, red, missing);
 }
 
@@ -242,7 +266,11 @@ fn containers_of_gltf_may_have_more() {
     longer[8..12].copy_from_slice(&length.to_le_bytes());
     let text_end = 20 + u32::from_le_bytes(plain[12..16].try_into().unwrap()) as usize;
     let mut padded = plain.clone();
-    padded[..text_end].iter_mut().rev().take_while(|byte| **byte == b' ').for_each(|byte| *byte = 0);
+    padded[..text_end]
+        .iter_mut()
+        .rev()
+        .take_while(|byte| **byte == b' ')
+        .for_each(|byte| *byte = 0);
     for file in [longer, padded] {
         assert_eq!(shown(&run("a.glb", &file, &[])).0, expected);
     }
@@ -256,11 +284,18 @@ fn containers_of_gltf_may_have_more() {
     );
     let three = glb(r#"{"asset":{"version":"2.0","minVersion":"3.0"}}"#, b"");
     let config = Config { up: Some(Axis::Z), ..Config::default() };
-    let message = ugmesh::run(&config, &MeshFile::new("a.glb", three)).err().map(|error| error.to_string());
-    assert!(message.unwrap_or_default().contains("glTF 3.0 is not read; convert the mesh to glTF 2.0"));
+    let message =
+        ugmesh::run(&config, &MeshFile::new("a.glb", three)).err().map(|error| error.to_string());
+    assert!(
+        message.unwrap_or_default().contains("glTF 3.0 is not read; convert the mesh to glTF 2.0")
+    );
     // A buffer by a path with backslashes.
     let far = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"x\\a%20b.bin"}]}"#;
     let read = run("a.gltf", far.as_bytes(), &[("x/a b.bin", b"abc")]);
     assert_eq!(read.warnings, ["the mesh has no faces"]);
-    assert!(empty.warnings[0].starts_with("1 set of triangles without positions"), "{:?}", empty.warnings);
+    assert!(
+        empty.warnings[0].starts_with("1 set of triangles without positions"),
+        "{:?}",
+        empty.warnings
+    );
 }

@@ -4,7 +4,8 @@ use ugmesh::{Axis, Config, MeshFile, Size};
 use ugpipe::Words;
 
 use crate::common::{
-    Encoding, convert, floats, glb, glb_with_nodes, ply, seen, statements, stl_binary, stl_text, to_scene,
+    Encoding, convert, floats, glb, glb_with_nodes, ply, seen, statements, stl_binary, stl_text,
+    to_scene,
 };
 
 fn z_up() -> Config {
@@ -142,9 +143,12 @@ fn gltf_node_transforms_are_applied() {
     fn check(nodes: &str, expected: [f64; 3], normal: [f64; 3]) {
         let config = Config { up: Some(Axis::Z), ..Config::default() };
         let scene = to_scene(&config, "<stdin>", glb_with_nodes(nodes));
+        let corner = seen(&scene)[0]
+            .iter()
+            .find(|corner| distance(corner.position, expected) < 1e-14)
+            .cloned();
         let corner =
-            seen(&scene)[0].iter().find(|corner| distance(corner.position, expected) < 1e-14).cloned();
-        let corner = corner.unwrap_or_else(|| panic!("nothing at {expected:?}: {:?}", seen(&scene)));
+            corner.unwrap_or_else(|| panic!("nothing at {expected:?}: {:?}", seen(&scene)));
         let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
         let found = corner.normal.unwrap();
         assert!(distance(found, normal.map(|x| x / length)) < 1e-14, "{found:?}");
@@ -176,7 +180,11 @@ fn gltf_node_transforms_are_applied() {
         [-0.5, 1.0, 0.0],
     );
     // A column-major matrix: x goes to y, y to z, z to x, with a translation.
-    check(r#"[{"mesh":0,"matrix":[0,1,0,0, 0,0,1,0, 1,0,0,0, 5,6,7,1]}]"#, [6.0, 7.0, 8.0], [0.0, 1.0, 1.0]);
+    check(
+        r#"[{"mesh":0,"matrix":[0,1,0,0, 0,0,1,0, 1,0,0,0, 5,6,7,1]}]"#,
+        [6.0, 7.0, 8.0],
+        [0.0, 1.0, 1.0],
+    );
 }
 
 #[test]
@@ -249,13 +257,20 @@ fn lines_end_with_line_feeds_or_carriage_returns() {
     let scene = |name: &str, text: &[u8], ends: &str| {
         let beside = |_: &str, _: u64| Ok(materials.replace('\n', ends).into_bytes());
         let converted = ugmesh::run(&z_up(), &MeshFile::new(name, text).with_files(&beside));
-        String::from_utf8(converted.unwrap_or_else(|error| panic!("{name}: {error}")).bytes).unwrap()
+        String::from_utf8(converted.unwrap_or_else(|error| panic!("{name}: {error}")).bytes)
+            .unwrap()
     };
     let triangle = "0 0 0\n1 0 0\n0 1 0\n";
-    let facet =
-        triangle.replace("0 0 0", "vertex 0 0 0").replace("\n1", "\nvertex 1").replace("\n0", "\nvertex 0");
+    let facet = triangle
+        .replace("0 0 0", "vertex 0 0 0")
+        .replace("\n1", "\nvertex 1")
+        .replace("\n0", "\nvertex 0");
     for (name, text) in [
-        ("a.obj", "# a tile\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 \\\n3\n".to_owned()),
+        (
+            "a.obj",
+            "# a tile\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 \\\n3\n"
+                .to_owned(),
+        ),
         ("content", "# a tile\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned()),
         ("a.off", format!("OFF # a tile\n3 1 0\n{triangle}3 0 1 2\n")),
         ("a.stl", format!("solid\nfacet\nouter loop\n{facet}endloop\nendfacet\nendsolid\n")),
@@ -263,7 +278,11 @@ fn lines_end_with_line_feeds_or_carriage_returns() {
         let expected = scene(name, text.as_bytes(), "\n");
         assert!(expected.contains("f (v1 v2 v3)"), "{expected}");
         for ends in ["\r\n", "\r"] {
-            assert_eq!(scene(name, text.replace('\n', ends).as_bytes(), ends), expected, "{ends:?}");
+            assert_eq!(
+                scene(name, text.replace('\n', ends).as_bytes(), ends),
+                expected,
+                "{ends:?}"
+            );
         }
     }
     for encoding in [Encoding::Ascii, Encoding::Little, Encoding::Big] {
@@ -279,8 +298,7 @@ fn lines_end_with_line_feeds_or_carriage_returns() {
 #[test]
 fn files_beside_the_mesh() {
     let beside = |name: &str, _limit: u64| -> std::io::Result<Vec<u8>> {
-        let materials =
-            "# made by hand\nnewmtl deep red\n Kd 0.5 0 0\nd 0.75\nnewmtl bare\nnewmtl white\nKd 1\n";
+        let materials = "# made by hand\nnewmtl deep red\n Kd 0.5 0 0\nd 0.75\nnewmtl bare\nnewmtl white\nKd 1\n";
         match name {
             "my colours.mtl" => Ok(materials.into()),
             "a b.bin" => Ok(floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0.])),
@@ -297,13 +315,19 @@ fn files_beside_the_mesh() {
     let text = String::from_utf8(obj.bytes).unwrap();
     let colours = "c_rgb deep_red 0.5 0 0 0.25;\nc_rgb bare 0.8 0.8 0.8;\nc_rgb white 1 1 1;\n";
     assert!(text.contains(colours), "{text}");
-    assert!(text.ends_with("f (v1 v2 v3) deep_red;\nf (v1 v3 v2) bare;\nf (v1 v3 v2) white;\n"), "{text}");
+    assert!(
+        text.ends_with("f (v1 v2 v3) deep_red;\nf (v1 v3 v2) bare;\nf (v1 v3 v2) white;\n"),
+        "{text}"
+    );
     assert!(obj.warnings.is_empty(), "{:?}", obj.warnings);
 
     let missing = run("a.obj", &format!("mtllib none.mtl\n{points}usemtl red\nf 1 2 3"));
     assert_eq!(
         missing.warnings,
-        ["colours are missing: cannot read `none.mtl`: entity not found", "materials without colour: `red`"]
+        [
+            "colours are missing: cannot read `none.mtl`: entity not found",
+            "materials without colour: `red`"
+        ]
     );
 
     let gltf = |uri: &str| {
@@ -316,13 +340,15 @@ fn files_beside_the_mesh() {
     };
     let triangle = "v v1 0 0 0;\nv v2 1 0 0;\nv v3 0 1 0;\nf (v1 v2 v3);\n";
     // The bytes of 1.0 are 00 00 80 3f.
-    let data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    let data =
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
     for uri in ["a%20b.bin", data] {
         let text = String::from_utf8(run("a.gltf", &gltf(uri)).bytes).unwrap();
         assert!(text.ends_with(triangle), "{uri}: {text}");
     }
     let error =
-        ugmesh::run(&z_up(), &MeshFile::new("a.gltf", gltf("none.bin")).with_files(&beside)).unwrap_err();
+        ugmesh::run(&z_up(), &MeshFile::new("a.gltf", gltf("none.bin")).with_files(&beside))
+            .unwrap_err();
     assert_eq!(
         error.to_string(),
         "cannot read `a.gltf` as glTF: cannot read `none.bin`: entity not found; put it in the folder of the mesh"
@@ -336,7 +362,8 @@ fn objects_groups_and_materials_keep_their_names() {
             Ok(b"newmtl 1 red\nKd 1 0 0\nnewmtl 1-red\nKd 1 0 0\nnewmtl c1\nKd 0 1 0\nnewmtl \xc3\xa9\nKd 0 0 1\n".to_vec())
         };
         let text = format!("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{obj}");
-        let converted = ugmesh::run(&z_up(), &MeshFile::new("a.obj", text).with_files(&beside)).unwrap();
+        let converted =
+            ugmesh::run(&z_up(), &MeshFile::new("a.obj", text).with_files(&beside)).unwrap();
         assert_eq!(converted.warnings, [""; 0]);
         let text = String::from_utf8(converted.bytes).unwrap();
         let found: Vec<&str> = text.lines().filter(|line| line.starts_with(['c', 'f'])).collect();
@@ -353,7 +380,9 @@ fn objects_groups_and_materials_keep_their_names() {
     check(&format!("g {}\n{face}", "x".repeat(1000)), &format!("f {} (v1 v2 v3);", "x".repeat(64)));
     // Names are unique, and materials of one colour are two colours.
     check(
-        &format!("usemtl 1 red\n{face}\nusemtl 1-red\n{face}\nusemtl \u{e9}\n{face}\nusemtl c1\n{face}"),
+        &format!(
+            "usemtl 1 red\n{face}\nusemtl 1-red\n{face}\nusemtl \u{e9}\n{face}\nusemtl c1\n{face}"
+        ),
         "c_rgb _1_red 1 0 0;\nc_rgb c2 0 0 1;\nc_rgb c1 0 1 0;\n\
          f (v1 v2 v3) _1_red;\nf (v1 v2 v3) _1_red;\nf (v1 v2 v3) c2;\nf (v1 v2 v3) c1;",
     );
@@ -372,7 +401,10 @@ fn placing() {
     check(with(Some(Axis::Z), Size::Same, false), "1 1 2 3; 2 5 2 3; 3 1 4 3;");
     check(with(Some(Axis::X), Size::Same, false), "1 2 3 1; 2 2 3 5; 3 4 3 1;");
     check(with(Some(Axis::Z), Size::Times(0.5), false), "1 0.5 1 1.5; 2 2.5 1 1.5; 3 0.5 2 1.5;");
-    check(with(Some(Axis::Z), Size::Fit(1.0), false), "1 0.25 0.5 0.75; 2 1.25 0.5 0.75; 3 0.25 1 0.75;");
+    check(
+        with(Some(Axis::Z), Size::Fit(1.0), false),
+        "1 0.25 0.5 0.75; 2 1.25 0.5 0.75; 3 0.25 1 0.75;",
+    );
     check(with(Some(Axis::Z), Size::Fit(8.0), true), "1 -4 -2 0; 2 4 -2 0; 3 -4 2 0;");
 }
 
@@ -381,9 +413,12 @@ fn scaling_out_of_range_is_an_error() {
     #[track_caller]
     fn check(size: Size, x: &str) {
         let config = Config { size, ..Config::default() };
-        let error =
-            convert(&config, "a.obj", format!("v {x} 2 3\nv -{x} 2 3\nv 1 4 3\nf 1 2 3")).unwrap_err();
-        assert_eq!(error.words(), "scaled coordinates are out of range; choose another -scale or -fit");
+        let error = convert(&config, "a.obj", format!("v {x} 2 3\nv -{x} 2 3\nv 1 4 3\nf 1 2 3"))
+            .unwrap_err();
+        assert_eq!(
+            error.words(),
+            "scaled coordinates are out of range; choose another -scale or -fit"
+        );
     }
     check(Size::Times(1e300), "1e10");
     check(Size::Fit(1.0), "1.7e308");
@@ -395,9 +430,12 @@ fn errors_name_the_problem_and_line() {
     fn check(name: &str, bytes: impl Into<Vec<u8>>, expected: &str) {
         assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().words(), expected);
     }
-    check("a", "", "cannot detect the format of `a`; give it with -if ug, obj, ply, stl, off or gltf");
-    let scene =
-        "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp";
+    check(
+        "a",
+        "",
+        "cannot detect the format of `a`; give it with -if ug, obj, ply, stl, off or gltf",
+    );
+    let scene = "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp";
     check("a.ug", "", scene);
     let of = |name: &str, format: &str, bytes: &[u8], problem: &str| {
         check(name, bytes, &format!("cannot read `{name}` as {format}: {problem}"));
@@ -430,21 +468,31 @@ fn errors_name_the_problem_and_line() {
     off("OFF\n2 1 0\n0 0 0", "2 vertices are declared, but the file ends after 1; copy it again");
     let range = "line 4: a face refers to vertex `1`, but vertices are numbered from 0 to 0";
     off("OFF\n1 1\n0 0 0\n3 0 0 1", range);
-    let binary = "line 1: `OFF BINARY` is not supported; export three-dimensional ASCII OFF, or PLY";
+    let binary =
+        "line 1: `OFF BINARY` is not supported; export three-dimensional ASCII OFF, or PLY";
     off("OFF BINARY\n", binary);
     off("OFF\nv 1 2", "line 2: the numbers of vertices and faces are expected here");
     let ply = |rest: &str, problem: &str| {
-        of("a.ply", "PLY", format!("ply\nformat ascii 1.0\nelement vertex {rest}").as_bytes(), problem);
+        of(
+            "a.ply",
+            "PLY",
+            format!("ply\nformat ascii 1.0\nelement vertex {rest}").as_bytes(),
+            problem,
+        );
     };
-    let fewer = |n: &str| format!("{n} rows of `vertex` are declared, but the file has fewer; copy it again");
+    let fewer = |n: &str| {
+        format!("{n} rows of `vertex` are declared, but the file has fewer; copy it again")
+    };
     ply("1000000000000\nproperty float x\nend_header\n", &fewer("1000000000000"));
     ply("9\nend_header\n", &fewer("9"));
     ply("1\nproperty float x\nend_header\n1\n", "vertices have no property `y`");
     let gltf = |bytes: &[u8], problem: &str| of("a.glb", "glTF", bytes, problem);
     gltf(b"glTF\x02\0\0\0\0\0\0\0", "the file is truncated; copy it again");
-    for (extension, name) in [("KHR_draco_mesh_compression", "draco"), ("EXT_meshopt_compression", "meshopt")]
+    for (extension, name) in
+        [("KHR_draco_mesh_compression", "draco"), ("EXT_meshopt_compression", "meshopt")]
     {
-        let required = format!(r#"{{"asset":{{"version":"2.0"}},"extensionsRequired":["{extension}"]}}"#);
+        let required =
+            format!(r#"{{"asset":{{"version":"2.0"}},"extensionsRequired":["{extension}"]}}"#);
         let problem = format!("the mesh has {name} compression ({extension}); export without it");
         gltf(&glb(&required, b""), &problem);
     }
@@ -452,8 +500,9 @@ fn errors_name_the_problem_and_line() {
     of("a.gltf", "glTF", old, "glTF 1.0 is not read; convert the mesh to glTF 2.0");
     of("a.gltf", "glTF", b"{}", "this is not a glTF document: it has no `asset` with a version");
     gltf(&glb_with_nodes(r#"[{"mesh":7}]"#), "`meshes[7]` does not exist; export the mesh again");
-    let ascii =
-        |row: &str| format!("1\nproperty float x\nproperty float y\nproperty float z\nend_header\n{row}");
+    let ascii = |row: &str| {
+        format!("1\nproperty float x\nproperty float y\nproperty float z\nend_header\n{row}")
+    };
     ply(&ascii("0 a 0\n"), "line 8: vertex 0, y: `a` is not a number");
     ply(&ascii("0\n0"), "line 9: vertex 0, z: the file ends here; copy it again");
     let two_parents = glb_with_nodes(r#"[{"children":[1,2]},{"children":[2]},{"mesh":0}]"#);

@@ -16,7 +16,10 @@ f (a b e) red; f (b c e) green; f (c d e) red; f (d a e); f (d c b a) green; f (
 
 /// Every corner with a colour, white if none is given.
 fn coloured(mut faces: Vec<Vec<Corner>>) -> Vec<Vec<Corner>> {
-    faces.iter_mut().flatten().for_each(|corner| corner.rgba = Some(corner.rgba.unwrap_or([1.0; 4])));
+    faces
+        .iter_mut()
+        .flatten()
+        .for_each(|corner| corner.rgba = Some(corner.rgba.unwrap_or([1.0; 4])));
     faces
 }
 
@@ -93,8 +96,9 @@ fn normals_round_trip() {
     }
     // OBJ supports faces with and without normals; the other formats have either normals for all
     // vertices or none.
-    let some =
-        text.replace("1 0 0;\nf", ";\nf").replace("f (a b c)", "f (a b c); v d 1 1 1 0 0 1; f (a b d)");
+    let some = text
+        .replace("1 0 0;\nf", ";\nf")
+        .replace("f (a b c)", "f (a b c); v d 1 1 1 0 0 1; f (a b d)");
     let obj = String::from_utf8(to_mesh(Target::Obj, some.as_bytes())).unwrap();
     assert!(obj.ends_with("f 1 2 3\nf 1//1 2//2 4//3\n"), "{obj}");
     let glb = convert(&Config { target: Target::Glb, ..Config::default() }, "a.ug", some).unwrap();
@@ -113,10 +117,14 @@ fn colours_of_faces_move_to_vertices() {
 
 #[test]
 fn holes_are_cut() {
-    let text = "v a 0 0 0; v b 4 0 0; v c 4 4 0; v d 0 4 0; v e 1 1 0; v f 1 3 0; v g 3 3 0; v h 3 1 0;
+    let text =
+        "v a 0 0 0; v b 4 0 0; v c 4 4 0; v d 0 4 0; v e 1 1 0; v f 1 3 0; v g 3 3 0; v h 3 1 0;
         f (a b c d) (e f g h); f (a b c d); f (a b g d);";
-    let faces = |target| seen(&to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes())));
-    for (target, n_faces) in [(Target::Obj, 10), (Target::Ply { is_ascii: false }, 10), (Target::Glb, 12)] {
+    let faces =
+        |target| seen(&to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes())));
+    for (target, n_faces) in
+        [(Target::Obj, 10), (Target::Ply { is_ascii: false }, 10), (Target::Glb, 12)]
+    {
         let faces = faces(target);
         assert_eq!(faces.len(), n_faces, "{target:?}");
         let area = |face: &Vec<Corner>| {
@@ -135,8 +143,14 @@ fn ply_uses_float_where_it_is_exact() {
         let text = format!("v a {x} 0 0; v b 1 0 0; v c 0 1 0; f (a b c);");
         for is_ascii in [false, true] {
             let ply = to_mesh(Target::Ply { is_ascii }, text.as_bytes());
-            assert!(String::from_utf8_lossy(&ply).contains(&format!("property {expected} x\n")), "{x}");
-            assert_eq!(seen(&to_scene(&Config::default(), "<stdin>", ply)), seen(&parse(text.as_bytes())));
+            assert!(
+                String::from_utf8_lossy(&ply).contains(&format!("property {expected} x\n")),
+                "{x}"
+            );
+            assert_eq!(
+                seen(&to_scene(&Config::default(), "<stdin>", ply)),
+                seen(&parse(text.as_bytes()))
+            );
         }
     }
     check("0.5", "float");
@@ -144,7 +158,8 @@ fn ply_uses_float_where_it_is_exact() {
     check("0.10000000149011612", "float");
     check("1e300", "double");
     let config = Config { target: Target::Glb, ..Config::default() };
-    let error = convert(&config, "a.ug", "v a 1e300 0 0; v b 1 0 0; v c 0 1 0; f (a b c);").unwrap_err();
+    let error =
+        convert(&config, "a.ug", "v a 1e300 0 0; v b 1 0 0; v c 0 1 0; f (a b c);").unwrap_err();
     assert_eq!(
         error.words(),
         "coordinates do not fit glTF; make the mesh smaller (-fit 1) or write PLY (-dt ply)"
@@ -156,7 +171,10 @@ fn transparency_round_trips_where_supported() {
     let text = "c glass 1 0 0 0.4; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) glass;";
     for target in [Target::Ply { is_ascii: false }, Target::Glb] {
         let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes()));
-        assert!(back.colors.iter().all(|color| (color.translucency - 0.4).abs() < 1e-6), "{target:?}");
+        assert!(
+            back.colors.iter().all(|color| (color.translucency - 0.4).abs() < 1e-6),
+            "{target:?}"
+        );
     }
     let obj = convert(&Config { target: Target::Obj, ..Config::default() }, "a.ug", text).unwrap();
     assert_eq!(obj.notes, ["OBJ has no transparent vertices: all are written as opaque"]);
@@ -182,12 +200,16 @@ fn unsupported_parts_are_noted() {
 fn vertices_of_wires_are_left_out_with_them() {
     let text = "v far 9 9 9; v a 0 0 0; v b 2 0 0; v on 5 5 5; v c 0 1 0; w (far a on); f (c b a);";
     for target in [Target::Obj, Target::Ply { is_ascii: true }, Target::Gltf] {
-        let config = Config { target, size: Size::Fit(1.0), is_centered: true, ..Config::default() };
+        let config =
+            Config { target, size: Size::Fit(1.0), is_centered: true, ..Config::default() };
         let mesh = convert(&config, "a.ug", text).unwrap().bytes;
         let back = to_scene(&Config::default(), "<stdin>", mesh);
         assert_eq!(back.vertices.len(), 3, "{target:?}");
         let (low, high) = back.bounds().unwrap();
-        assert!((high - low).abs_diff_eq(DVec3::new(1.0, 0.5, 0.0), 1e-6), "{target:?} {low} {high}");
+        assert!(
+            (high - low).abs_diff_eq(DVec3::new(1.0, 0.5, 0.0), 1e-6),
+            "{target:?} {low} {high}"
+        );
         assert!((high + low).abs_diff_eq(DVec3::ZERO, 1e-6), "{target:?} {low} {high}");
     }
 }
@@ -197,8 +219,11 @@ fn vertices_of_wires_are_left_out_with_them() {
 #[test]
 fn cameras_of_any_size_are_read_back() {
     let bodies = "v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c);";
-    for (distance, angle) in [("1e38", "-og"), ("1e38", "-va 40"), ("1e-42", "-og"), ("1e-42", "-va 1e-9")] {
-        let film = if angle == "-og" { format!("-fs {distance} {distance}") } else { String::new() };
+    for (distance, angle) in
+        [("1e38", "-og"), ("1e38", "-va 40"), ("1e-42", "-og"), ("1e-42", "-va 1e-9")]
+    {
+        let film =
+            if angle == "-og" { format!("-fs {distance} {distance}") } else { String::new() };
         let text = format!("{bodies} cam -ep 0 0 {distance} -vc 0 0 0 -ud 0 1 0 {angle} {film};");
         let config = Config { target: Target::Gltf, ..Config::default() };
         let mesh = convert(&config, "a.ug", text.clone()).unwrap().bytes;
@@ -208,7 +233,10 @@ fn cameras_of_any_size_are_read_back() {
         let numbers: Vec<_> =
             lens[kind].as_object().unwrap().values().map(|number| number.as_f64()).collect();
         assert_eq!(numbers.len(), 4, "{text}: {lens}");
-        assert!(numbers.iter().all(|number| number.is_some_and(|number| number > 0.0)), "{text}: {lens}");
+        assert!(
+            numbers.iter().all(|number| number.is_some_and(|number| number > 0.0)),
+            "{text}: {lens}"
+        );
         to_scene(&Config::default(), "<stdin>", mesh);
     }
 }
@@ -266,7 +294,8 @@ fn a_scene_as_seen_is_exported_as_seen() {
     let tilted = format!("{seen} {}", SCENE.replace("green 0 0 1", "green 1 0 1"));
     let normals = |rest_normals| {
         let config = Config { target: Target::Obj, rest_normals, ..config.clone() };
-        let text = String::from_utf8(convert(&config, "scene.ug", tilted.as_str()).unwrap().bytes).unwrap();
+        let text = String::from_utf8(convert(&config, "scene.ug", tilted.as_str()).unwrap().bytes)
+            .unwrap();
         text.lines().filter(|line| line.starts_with("vn ")).map(str::to_owned).collect::<Vec<_>>()
     };
     // z of the scene is y of OBJ.
@@ -287,7 +316,8 @@ fn names_of_faces_and_colours_are_kept() {
     assert_eq!(back.warnings, [""; 0], "colours are those of the vertices");
     let faces = |bytes: &[u8]| -> Vec<String> {
         let scene = parse(bytes);
-        let name = |face: &ugscene::Face| face.name.map_or("", |name| scene.names.get(name)).to_string();
+        let name =
+            |face: &ugscene::Face| face.name.map_or("", |name| scene.names.get(name)).to_string();
         scene.faces.iter().map(name).collect()
     };
     assert_eq!(faces(&back.bytes), ["hull", "", "hull", "hull"]);
@@ -330,8 +360,10 @@ f #left (a b c) red#2; f right:wing (a c d) green_2;";
 
 /// Lines by the longest list of line ends that readers have (that of Python's `splitlines`).
 fn all_lines(text: &str) -> Vec<&str> {
-    const ENDS: [char; 10] =
-        ['\n', '\r', '\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'];
+    const ENDS: [char; 10] = [
+        '\n', '\r', '\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}',
+        '\u{2029}',
+    ];
     text.split(ENDS).collect()
 }
 
@@ -341,16 +373,21 @@ fn all_lines(text: &str) -> Vec<&str> {
 fn other_readers_read_what_is_written() {
     let obj = to_mesh(Target::Obj, HOSTILE.as_bytes());
     let text = String::from_utf8(obj.clone()).unwrap();
-    let no_materials =
-        |_: &std::path::Path| tobj::MTLLoadResult::Ok((Vec::new(), std::collections::HashMap::default()));
+    let no_materials = |_: &std::path::Path| {
+        tobj::MTLLoadResult::Ok((Vec::new(), std::collections::HashMap::default()))
+    };
     let (models, _) =
-        tobj::load_obj_buf(&mut obj.as_slice(), &tobj::LoadOptions::default(), no_materials).unwrap();
+        tobj::load_obj_buf(&mut obj.as_slice(), &tobj::LoadOptions::default(), no_materials)
+            .unwrap();
     assert_eq!(models.len(), 2, "{text}");
     assert_eq!(models.iter().map(|model| model.mesh.indices.len()).sum::<usize>(), 6);
     assert!(models[0].mesh.positions.starts_with(&[0.0, 0.0, 0.0, 1.0]));
     for line in all_lines(&text) {
         let keyword = line.split(' ').next().unwrap_or_default();
-        assert!(["#", "v", "g", "usemtl", "f", ""].contains(&keyword) && !line.ends_with('\\'), "{line:?}");
+        assert!(
+            ["#", "v", "g", "usemtl", "f", ""].contains(&keyword) && !line.ends_with('\\'),
+            "{line:?}"
+        );
     }
     for is_ascii in [true, false] {
         let ply = to_mesh(Target::Ply { is_ascii }, HOSTILE.as_bytes());
@@ -362,7 +399,10 @@ fn other_readers_read_what_is_written() {
         let header = header.split("end_header").next().unwrap();
         for line in all_lines(header) {
             let keyword = line.split(' ').next().unwrap_or_default();
-            assert!(["ply", "format", "comment", "element", "property", ""].contains(&keyword), "{line:?}");
+            assert!(
+                ["ply", "format", "comment", "element", "property", ""].contains(&keyword),
+                "{line:?}"
+            );
         }
     }
 }

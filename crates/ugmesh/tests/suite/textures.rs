@@ -22,7 +22,10 @@ fn pixel() -> Vec<u8> {
 
 fn read(bytes: &[u8]) -> Scene {
     let no_files = |_: &str, _| Err(io::ErrorKind::NotFound.into());
-    ugmeshfile::read(MeshFormat::Gltf, bytes, &no_files, "").map_err(|problem| problem.what).unwrap().scene
+    ugmeshfile::read(MeshFormat::Gltf, bytes, &no_files, "")
+        .map_err(|problem| problem.what)
+        .unwrap()
+        .scene
 }
 
 /// The text of a scene with its pictures, which are written beside it.
@@ -37,8 +40,11 @@ fn to_text(name: &str, mesh: &[u8]) -> (String, Pictures) {
 fn to_mesh(target: Target, text: &str, pictures: &[(String, Arc<[u8]>)]) -> Vec<u8> {
     let resolve = |source: Source| {
         ugparse::include(source, &Options::default(), |request| {
-            let picture = pictures.iter().find(|(name, _)| *name == request.path.display().to_string());
-            picture.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| io::Error::other("no such file").into())
+            let picture =
+                pictures.iter().find(|(name, _)| *name == request.path.display().to_string());
+            picture
+                .map(|(_, bytes)| bytes.to_vec())
+                .ok_or_else(|| io::Error::other("no such file").into())
         })
     };
     let config = Config { target, ..Config::default() };
@@ -93,11 +99,14 @@ fn textures_survive_a_round_trip() {
 #[test]
 fn tints_survive_a_round_trip() {
     let (text, pictures) = to_text("crate.gltf", CRATE);
-    let tinted = format!("c_rgb tint .9 .5 .7;\n{text}").replace(" (", " tint (").replace("f tint (", "f (");
+    let tinted =
+        format!("c_rgb tint .9 .5 .7;\n{text}").replace(" (", " tint (").replace("f tint (", "f (");
     let tinted = tinted.replace("f crate tint (", "f crate (");
     let tint = |scene: &Scene| {
         let vertex = scene.vertices[0].color.unwrap();
-        let ugscene::ColorValue::Rgb(rgb) = scene.colors[vertex.index()].value else { panic!("no c_rgb") };
+        let ugscene::ColorValue::Rgb(rgb) = scene.colors[vertex.index()].value else {
+            panic!("no c_rgb")
+        };
         let [red, green, blue, _] = scene.textures[0].factor.map(f64::from);
         let light = rgb.map(ugphysics::srgb_decode);
         [light[0] * red, light[1] * green, light[2] * blue]
@@ -107,8 +116,10 @@ fn tints_survive_a_round_trip() {
     let second = to_mesh(Target::Glb, &again, &pictures);
     for mesh in [first, second] {
         let scene = read(&mesh);
-        let off =
-            tint(&scene).into_iter().zip([0.9, 0.5, 0.7]).map(|(a, b)| (a - ugphysics::srgb_decode(b)).abs());
+        let off = tint(&scene)
+            .into_iter()
+            .zip([0.9, 0.5, 0.7])
+            .map(|(a, b)| (a - ugphysics::srgb_decode(b)).abs());
         assert!(off.fold(0.0, f64::max) < 1e-6, "{:?}", tint(&scene));
         // The plain colour is darker, as the picture is.
         assert!(
@@ -161,8 +172,10 @@ fn emitted_light_survives_a_round_trip() {
     }
     // Without a factor, a texture emits nothing; with other coordinates it lends its mean.
     assert!(light(&read(with("\"emissiveTexture\":{\"index\":0},").as_bytes())).is_none());
-    let other = with("\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0,\"texCoord\":1},");
-    let converted = ugmesh::run(&Config::default(), &MeshFile::new("a.gltf", other.as_str())).unwrap();
+    let other =
+        with("\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0,\"texCoord\":1},");
+    let converted =
+        ugmesh::run(&Config::default(), &MeshFile::new("a.gltf", other.as_str())).unwrap();
     let warnings = converted.warnings.join("\n");
     assert!(warnings.contains("emissive (with coordinates of their own)"), "{warnings}");
     let (texture, plain) = light(&read(other.as_bytes())).unwrap();
@@ -180,14 +193,16 @@ fn emitted_light_survives_a_round_trip() {
             "a.png" => Ok(pixel()),
             _ => Err(io::ErrorKind::NotFound.into()),
         };
-        let scene =
-            ugmeshfile::read(MeshFormat::Obj, obj, &files, "").map_err(|problem| problem.what).unwrap();
+        let scene = ugmeshfile::read(MeshFormat::Obj, obj, &files, "")
+            .map_err(|problem| problem.what)
+            .unwrap();
         let (texture, plain) = light(&scene.scene).unwrap();
         assert_eq!(texture.map(|it| it.0), expected, "{material}");
         assert_eq!(scene.scene.vertices[1].uv.is_some(), expected.is_some());
         assert!(expected.is_some() || plain.distance([3.0, 3.0, 0.0].into()) < 1e-6, "{plain}");
     }
-    let plain = ugmeshfile::read(MeshFormat::Obj, obj, &|_, _| Ok(b"newmtl m\nKe 0 0 0".to_vec()), "");
+    let plain =
+        ugmeshfile::read(MeshFormat::Obj, obj, &|_, _| Ok(b"newmtl m\nKe 0 0 0".to_vec()), "");
     assert!(plain.map_err(|problem| problem.what).unwrap().scene.emissions.is_empty());
 }
 
@@ -209,7 +224,9 @@ fn what_is_lost_is_said() {
     assert_eq!(piped.notes, ["textures within a mesh from standard input are left out"]);
     assert!(!String::from_utf8(piped.bytes).unwrap().contains("c_tex"));
     assert_eq!(ugmeshfile::picture_within(CRATE, 0).unwrap(), *read(CRATE).textures[0].image.bytes);
-    assert!(ugmeshfile::picture_within(CRATE, 1).unwrap_err().contains("`images[1]` does not exist"));
+    assert!(
+        ugmeshfile::picture_within(CRATE, 1).unwrap_err().contains("`images[1]` does not exist")
+    );
 }
 
 /// Corners of one place and several coordinates are several vertices; `v` points up in OBJ.
@@ -223,11 +240,16 @@ fn seams_of_obj_divide_vertices() {
         "a.png" => Ok(png.clone()),
         _ => Err(io::ErrorKind::NotFound.into()),
     };
-    let scene =
-        ugmeshfile::read(MeshFormat::Obj, obj, &files, "").map_err(|problem| problem.what).unwrap().scene;
+    let scene = ugmeshfile::read(MeshFormat::Obj, obj, &files, "")
+        .map_err(|problem| problem.what)
+        .unwrap()
+        .scene;
     let of_face = |row: usize| {
         let corners = scene.contours.corners(scene.faces[row].contours.clone());
-        corners.iter().map(|corner| (corner.index(), scene.vertices[corner.index()].uv)).collect::<Vec<_>>()
+        corners
+            .iter()
+            .map(|corner| (corner.index(), scene.vertices[corner.index()].uv))
+            .collect::<Vec<_>>()
     };
     let square = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.25], [0.0, 0.0]].map(Some);
     assert_eq!(of_face(0).iter().map(|corner| corner.1).collect::<Vec<_>>(), square);

@@ -20,7 +20,11 @@ fn component(value: &Value) -> Result<Kind, Problem> {
         Some(5123) => Kind::U16,
         Some(5125) => Kind::U32,
         Some(5126) => Kind::F32,
-        _ => return Err(Problem::new("an accessor has no known type of components; export the mesh again")),
+        _ => {
+            return Err(Problem::new(
+                "an accessor has no known type of components; export the mesh again",
+            ));
+        }
     })
 }
 
@@ -35,13 +39,15 @@ pub(super) fn shape(accessor: &Value) -> Result<[usize; 2], Problem> {
         Some("MAT4") => 16,
         _ => return Err(Problem::new("an accessor has no known type; export the mesh again")),
     };
-    let count = whole(&accessor["count"]).ok_or_else(|| Problem::new("an accessor has no count"))?;
+    let count =
+        whole(&accessor["count"]).ok_or_else(|| Problem::new("an accessor has no count"))?;
     Ok([n_components, count])
 }
 
 /// True if the rows can be indices.
 pub(super) fn is_index(accessor: &Value) -> bool {
-    matches!(component(accessor), Ok(Kind::U8 | Kind::U16 | Kind::U32)) && accessor["type"] == "SCALAR"
+    matches!(component(accessor), Ok(Kind::U8 | Kind::U16 | Kind::U32))
+        && accessor["type"] == "SCALAR"
 }
 
 /// All components of all rows. Normalized integers are converted to fractions.
@@ -53,7 +59,9 @@ pub(super) fn read(
     let kind = component(accessor)?;
     let [n_components, count] = shape(accessor)?;
     let row_size = kind.size() * n_components;
-    let rows = |part: &Value, count: usize, row_size: usize| rows(part, count, row_size, document, buffers);
+    let rows = |part: &Value, count: usize, row_size: usize| {
+        rows(part, count, row_size, document, buffers)
+    };
     let mut numbers = match whole(&accessor["bufferView"]) {
         Some(_) => rows(accessor, count, row_size)?.flat_map(|row| components(row, kind)).collect(),
         None if count <= MAX_ZEROS / n_components => vec![0.0; count * n_components],
@@ -66,8 +74,9 @@ pub(super) fn read(
         for (place, row) in places.zip(rows(&sparse["values"], count, row_size)?) {
             let place = components(place, index_kind).next().unwrap_or(0.0) as usize;
             let first = place.saturating_mul(n_components);
-            let target =
-                numbers.get_mut(first..first.saturating_add(n_components)).ok_or_else(out_of_bounds)?;
+            let target = numbers
+                .get_mut(first..first.saturating_add(n_components))
+                .ok_or_else(out_of_bounds)?;
             target.iter_mut().zip(components(row, kind)).for_each(|(old, new)| *old = new);
         }
     }
@@ -88,10 +97,13 @@ fn rows<'b>(
 ) -> Result<impl Iterator<Item = &'b [u8]> + use<'b>, Problem> {
     let find = || {
         let index = whole(&part["bufferView"])?;
-        let bytes = document.view(index, buffers)?.get(whole(&part["byteOffset"]).unwrap_or(0)..)?;
-        let stride = whole(&document.table("bufferViews").get(index)?["byteStride"]).unwrap_or(row_size);
-        let needed =
-            count.checked_sub(1).map_or(Some(0), |n| n.checked_mul(stride)?.checked_add(row_size))?;
+        let bytes =
+            document.view(index, buffers)?.get(whole(&part["byteOffset"]).unwrap_or(0)..)?;
+        let stride =
+            whole(&document.table("bufferViews").get(index)?["byteStride"]).unwrap_or(row_size);
+        let needed = count
+            .checked_sub(1)
+            .map_or(Some(0), |n| n.checked_mul(stride)?.checked_add(row_size))?;
         (stride >= row_size && needed <= bytes.len()).then_some((bytes, stride))
     };
     let (bytes, stride) = find().ok_or_else(out_of_bounds)?;

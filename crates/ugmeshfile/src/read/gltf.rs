@@ -45,7 +45,9 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
     textures.warn(builder);
     if !ignored.is_empty() {
         let kinds = ignored.into_iter().collect::<Vec<_>>().join(", ");
-        builder.warn(format!("only base colours are read: textures of other kinds are ignored ({kinds})"));
+        builder.warn(format!(
+            "only base colours are read: textures of other kinds are ignored ({kinds})"
+        ));
     }
     builder.warn_count(
         n_skipped,
@@ -97,7 +99,9 @@ fn buffers<'a>(
         let length = whole(&buffer["byteLength"]).unwrap_or(0);
         room = room.checked_sub(length as u64).ok_or_else(|| {
             let what = "the buffers have more than";
-            Problem::new(format!("{what} {MAX_BUFFER_BYTES} bytes together, the limit; split the mesh"))
+            Problem::new(format!(
+                "{what} {MAX_BUFFER_BYTES} bytes together, the limit; split the mesh"
+            ))
         })?;
         let bytes: Cow<[u8]> = match buffer["uri"].as_str() {
             Some(uri) => load(uri, length as u64, input)?.0.into(),
@@ -110,7 +114,8 @@ fn buffers<'a>(
             },
         };
         if bytes.len() < length {
-            let what = format!("buffer {index} has only {} of {length} bytes; copy it again", bytes.len());
+            let what =
+                format!("buffer {index} has only {} of {length} bytes; copy it again", bytes.len());
             return Err(Problem::new(what));
         }
         buffers.push(bytes);
@@ -145,7 +150,9 @@ fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<(Vec<u8>, String), 
         Ok(bytes) => Ok((bytes, name)),
         Err(error) => {
             let name = shorten(&name);
-            Err(Problem::new(format!("cannot read `{name}`: {error}; put it in the folder of the mesh")))
+            Err(Problem::new(format!(
+                "cannot read `{name}`: {error}; put it in the folder of the mesh"
+            )))
         }
     }
 }
@@ -225,16 +232,21 @@ impl Reader<'_, '_> {
             let scene_from_node = scene_from_parent * local_transform(node);
             if let Some(mesh) = whole(&node["mesh"]) {
                 let mesh = self.document.row("meshes", mesh)?;
-                self.builder.name_faces(node["name"].as_str().or(mesh["name"].as_str()).unwrap_or_default());
+                self.builder.name_faces(
+                    node["name"].as_str().or(mesh["name"].as_str()).unwrap_or_default(),
+                );
                 // Joints place a mesh with a skin; its node does not.
-                let placed = if node["skin"].is_null() { scene_from_node } else { DAffine3::IDENTITY };
+                let placed =
+                    if node["skin"].is_null() { scene_from_node } else { DAffine3::IDENTITY };
                 for node_from_instance in self.instances(node)? {
                     for primitive in mesh["primitives"].as_array().into_iter().flatten() {
                         self.primitive(primitive, placed * node_from_instance)?;
                     }
                 }
             }
-            todo.extend(children(&node["children"]).into_iter().rev().map(|child| (child, scene_from_node)));
+            todo.extend(
+                children(&node["children"]).into_iter().rev().map(|child| (child, scene_from_node)),
+            );
         }
         Ok(())
     }
@@ -249,10 +261,13 @@ impl Reader<'_, '_> {
         let turns = self.rows(&attributes["ROTATION"], 4, "ROTATION")?;
         let sizes = self.rows(&attributes["SCALE"], 3, "SCALE")?;
         let lengths = [(&places, 3), (&turns, 4), (&sizes, 3)];
-        let count = lengths.iter().filter_map(|(rows, width)| Some(rows.as_ref()?.len() / width)).min();
+        let count =
+            lengths.iter().filter_map(|(rows, width)| Some(rows.as_ref()?.len() / width)).min();
         self.builder.count_corners(count.unwrap_or(1))?;
         let instance = |idx: usize| {
-            let triple = |rows: &Option<Rc<Vec<f64>>>| rows.as_ref().map(|rows| vector(rows, idx).to_array());
+            let triple = |rows: &Option<Rc<Vec<f64>>>| {
+                rows.as_ref().map(|rows| vector(rows, idx).to_array())
+            };
             let turn = turns.as_ref().and_then(|rows| rows[4 * idx..4 * idx + 4].try_into().ok());
             transform(triple(&places), turn, triple(&sizes))
         };
@@ -301,7 +316,8 @@ impl Reader<'_, '_> {
         for row in (0..n_positions).filter(|&row| is_used[row]) {
             let position = scene_from_node.transform_point3(vector(&positions, row));
             let normal = normals.as_ref().filter(|normals| normals.len() >= 3 * row + 3);
-            let normal = normal.map(|normals| (normal_matrix * vector(normals, row)).normalize_or_zero());
+            let normal =
+                normal.map(|normals| (normal_matrix * vector(normals, row)).normalize_or_zero());
             let color = colors.as_ref().and_then(|(numbers, n)| numbers.chunks_exact(*n).nth(row));
             let color = color.map(|part| surface.display_color(part));
             vertices[row] = self.builder.vertex(position, normal, color)?;
@@ -361,16 +377,17 @@ impl Reader<'_, '_> {
             let factor_of_texels =
                 factor.map(|part| if part.is_finite() { part.max(0.0) as f32 } else { 1.0 });
             let alpha = match material["alphaMode"].as_str() {
-                Some("MASK") => {
-                    AlphaMode::Mask(material["alphaCutoff"].as_f64().unwrap_or(0.5).clamp(0.0, 2.0) as f32)
-                }
+                Some("MASK") => AlphaMode::Mask(
+                    material["alphaCutoff"].as_f64().unwrap_or(0.5).clamp(0.0, 2.0) as f32,
+                ),
                 Some("BLEND") => AlphaMode::Blend,
                 _ => AlphaMode::Opaque,
             };
             factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
             let wrap = self.wrap(index);
             let none = ColorId::from_index(0);
-            let drawn = Texture { wrap, factor: factor_of_texels, alpha, ..Texture::new(none, image) };
+            let drawn =
+                Texture { wrap, factor: factor_of_texels, alpha, ..Texture::new(none, image) };
             SurfaceTexture::new(drawn, mean, texture)
         });
         let emission = self.emission(material, texture.as_ref());
@@ -392,7 +409,9 @@ impl Reader<'_, '_> {
         }
         let info = &material["emissiveTexture"];
         let loaded = whole(&info["index"]).and_then(|index| Some((index, self.texture(index)?)));
-        let Some((index, LoadedTexture { mean, image })) = loaded else { return Some((factor, None)) };
+        let Some((index, LoadedTexture { mean, image })) = loaded else {
+            return Some((factor, None));
+        };
         let none = ColorId::from_index(0);
         let drawn = Texture { wrap: self.wrap(index), ..Texture::new(none, image) };
         let texture = SurfaceTexture::new(drawn, mean, info);
@@ -418,7 +437,8 @@ impl Reader<'_, '_> {
     /// A texture, if it can be read.
     fn texture(&mut self, index: usize) -> Option<LoadedTexture> {
         let (document, buffers, input) = (self.document, &self.buffers, self.input);
-        let source = document.table("textures").get(index).and_then(|texture| whole(&texture["source"]));
+        let source =
+            document.table("textures").get(index).and_then(|texture| whole(&texture["source"]));
         let image = source.and_then(|source| Some((source, document.table("images").get(source)?)));
         let Some((source, image)) = image else {
             let none = || Err("it has no PNG or JPEG picture".to_owned());
@@ -429,9 +449,13 @@ impl Reader<'_, '_> {
             let is_within = uri.starts_with("data:");
             let name = if is_within { number } else { percent_decoded(uri) };
             let load = || {
-                let (bytes, file) = load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what)?;
-                let origin =
-                    if is_within { TextureOrigin::Within(source) } else { TextureOrigin::File(file) };
+                let (bytes, file) =
+                    load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what)?;
+                let origin = if is_within {
+                    TextureOrigin::Within(source)
+                } else {
+                    TextureOrigin::File(file)
+                };
                 Ok((bytes, origin))
             };
             return self.textures.load(&name, load);
@@ -452,9 +476,9 @@ impl Reader<'_, '_> {
         }
         let corners: Vec<usize> = self.numbers(index)?.iter().map(|&row| row as usize).collect();
         match corners.iter().find(|&&row| row >= n_positions) {
-            Some(row) => {
-                Err(Problem::new(format!("a triangle refers to vertex {row}, but there are {n_positions}")))
-            }
+            Some(row) => Err(Problem::new(format!(
+                "a triangle refers to vertex {row}, but there are {n_positions}"
+            ))),
             None => Ok(corners),
         }
     }
@@ -470,7 +494,12 @@ impl Reader<'_, '_> {
     }
 
     /// The numbers of an accessor with rows of `width` components; `None` without an index.
-    fn rows(&mut self, index: &Value, width: usize, name: &str) -> Result<Option<Rc<Vec<f64>>>, Problem> {
+    fn rows(
+        &mut self,
+        index: &Value,
+        width: usize,
+        name: &str,
+    ) -> Result<Option<Rc<Vec<f64>>>, Problem> {
         let Some(index) = whole(index) else { return Ok(None) };
         if accessor::shape(self.document.row("accessors", index)?)?[0] != width {
             return Err(Problem::new(format!(
@@ -519,15 +548,25 @@ fn triangles(mode: usize, len: usize) -> Vec<[usize; 3]> {
 fn local_transform(node: &Value) -> DAffine3 {
     match numbers(&node["matrix"]) {
         Some(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
-        None => transform(numbers(&node["translation"]), numbers(&node["rotation"]), numbers(&node["scale"])),
+        None => transform(
+            numbers(&node["translation"]),
+            numbers(&node["rotation"]),
+            numbers(&node["scale"]),
+        ),
     }
 }
 
-fn transform(translation: Option<[f64; 3]>, rotation: Option<[f64; 4]>, scale: Option<[f64; 3]>) -> DAffine3 {
+fn transform(
+    translation: Option<[f64; 3]>,
+    rotation: Option<[f64; 4]>,
+    scale: Option<[f64; 3]>,
+) -> DAffine3 {
     // Exporters round quaternions to 32 bits, so they are normalized to pure rotations.
     let rotation = DQuat::from_array(rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
-    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
-    let [scale, translation] = [scale.unwrap_or([1.0; 3]), translation.unwrap_or_default()].map(DVec3::from);
+    let rotation =
+        if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+    let [scale, translation] =
+        [scale.unwrap_or([1.0; 3]), translation.unwrap_or_default()].map(DVec3::from);
     DAffine3::from_scale_rotation_translation(scale, rotation, translation)
 }
 
@@ -568,14 +607,19 @@ impl SurfaceTexture {
     /// Texture coordinates after the transform.
     fn placed(&self, [u, v]: [f64; 2]) -> [f32; 2] {
         match self.transform {
-            Some(rows) => rows.map(|[along, across, offset]| (along * u + across * v + offset) as f32),
+            Some(rows) => {
+                rows.map(|[along, across, offset]| (along * u + across * v + offset) as f32)
+            }
             None => [u as f32, v as f32],
         }
     }
 }
 
 /// The kinds of textures of a material that scenes do not have.
-fn ignored_textures(material: &Value, roughness: &Value) -> impl Iterator<Item = &'static str> + use<> {
+fn ignored_textures(
+    material: &Value,
+    roughness: &Value,
+) -> impl Iterator<Item = &'static str> + use<> {
     let kinds = [
         ("metallic-roughness", roughness),
         ("normal", &material["normalTexture"]),

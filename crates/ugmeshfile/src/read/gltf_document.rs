@@ -31,21 +31,30 @@ impl Document {
         let asset = &document["asset"];
         let stated = |name: &str| asset[name].as_str();
         let version = stated("minVersion").or(stated("version"));
-        let version = version
-            .ok_or_else(|| Problem::new("this is not a glTF document: it has no `asset` with a version"))?;
+        let version = version.ok_or_else(|| {
+            Problem::new("this is not a glTF document: it has no `asset` with a version")
+        })?;
         if version.split('.').next() != Some("2") {
             return Err(not_two(version));
         }
-        let required =
-            document["extensionsRequired"].as_array().into_iter().flatten().filter_map(Value::as_str);
-        let mut unknown = required.filter(|name| !HARMLESS.iter().any(|known| name.starts_with(known)));
+        let required = document["extensionsRequired"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str);
+        let mut unknown =
+            required.filter(|name| !HARMLESS.iter().any(|known| name.starts_with(known)));
         match unknown.next().map(shorten) {
             None => Ok(Self(document)),
             Some(name) => {
                 let compression = ["draco", "meshopt"].into_iter().find(|kind| name.contains(kind));
                 Err(Problem::new(match compression {
-                    Some(kind) => format!("the mesh has {kind} compression ({name}); export without it"),
-                    None => format!("the mesh requires `{name}`, which is not read; export without it"),
+                    Some(kind) => {
+                        format!("the mesh has {kind} compression ({name}); export without it")
+                    }
+                    None => {
+                        format!("the mesh requires `{name}`, which is not read; export without it")
+                    }
                 }))
             }
         }
@@ -58,7 +67,8 @@ impl Document {
 
     /// The row of a table with an index of the file.
     pub fn row(&self, table: &str, index: usize) -> Result<&Value, Problem> {
-        let none = || Problem::new(format!("`{table}[{index}]` does not exist; export the mesh again"));
+        let none =
+            || Problem::new(format!("`{table}[{index}]` does not exist; export the mesh again"));
         self.table(table).get(index).ok_or_else(none)
     }
 

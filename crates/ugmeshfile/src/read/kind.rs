@@ -40,8 +40,11 @@ impl Kind {
     /// The number of `size` bytes.
     pub fn decode(self, bytes: &[u8], is_little_endian: bool) -> f64 {
         let join = |bits: u64, byte: &u8| bits << 8 | u64::from(*byte);
-        let bits =
-            if is_little_endian { bytes.iter().rev().fold(0, join) } else { bytes.iter().fold(0, join) };
+        let bits = if is_little_endian {
+            bytes.iter().rev().fold(0, join)
+        } else {
+            bytes.iter().fold(0, join)
+        };
         match self {
             Self::I8 => f64::from(bits as i8),
             Self::I16 => f64::from(bits as i16),

@@ -58,5 +58,7 @@ const GOES_ON: &str = "the file goes on after what its header declares: the rest
 /// The triangles of a strip of `len` corners, as indices of corners. Every second triangle is
 /// reversed, so that all have the same orientation.
 fn strip(len: usize) -> impl Iterator<Item = [usize; 3]> {
-    (2..len).map(|last| if last % 2 == 0 { [last - 2, last - 1, last] } else { [last - 1, last - 2, last] })
+    (2..len).map(|last| {
+        if last % 2 == 0 { [last - 2, last - 1, last] } else { [last - 1, last - 2, last] }
+    })
 }

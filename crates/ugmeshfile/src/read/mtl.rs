@@ -53,7 +53,9 @@ impl Materials {
                         color.0[..3].copy_from_slice(&[red, green, blue]);
                     } else {
                         let (name, kind) = (shorten(name), shorten(rest));
-                        builder.warn(format!("the colour of material `{name}` is not read: `Kd {kind}`"));
+                        builder.warn(format!(
+                            "the colour of material `{name}` is not read: `Kd {kind}`"
+                        ));
                     }
                 }
                 ("d", Some(color)) => numbers.take(1).for_each(|opacity| color.0[3] = opacity),
@@ -90,14 +92,15 @@ fn file_of_map(mut rest: &str) -> MapFile {
         let most = match option {
             "-o" | "-s" | "-t" => 3,
             "-mm" => 2,
-            "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-imfchan" | "-texres"
-            | "-type" => 1,
+            "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-imfchan"
+            | "-texres" | "-type" => 1,
             _ => break,
         };
         rest = arguments;
         map.is_clamped |= option == "-clamp" && split(rest).0 == "on";
         if let "-s" | "-o" = option {
-            let parts = &mut map.placement.get_or_insert([[1.0; 2], [0.0; 2]])[usize::from(option == "-o")];
+            let parts =
+                &mut map.placement.get_or_insert([[1.0; 2], [0.0; 2]])[usize::from(option == "-o")];
             let numbers = rest.split_whitespace().map_while(any_number);
             parts.iter_mut().zip(numbers).for_each(|(part, number)| *part = number as f32);
         }

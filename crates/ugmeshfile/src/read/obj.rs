@@ -60,9 +60,9 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 
 /// Words that begin statements of OBJ.
 const KEYWORDS: [&str; 33] = [
-    "v", "vt", "vn", "vp", "f", "fo", "l", "p", "o", "g", "s", "mg", "mtllib", "usemtl", "maplib", "usemap",
-    "deg", "bmat", "step", "cstype", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end",
-    "con", "bevel", "lod", "call",
+    "v", "vt", "vn", "vp", "f", "fo", "l", "p", "o", "g", "s", "mg", "mtllib", "usemtl", "maplib",
+    "usemap", "deg", "bmat", "step", "cstype", "curv", "curv2", "surf", "parm", "trim", "hole",
+    "scrv", "sp", "end", "con", "bevel", "lod", "call",
 ];
 
 /// Largest number of bytes of all material files of a mesh.
@@ -160,8 +160,11 @@ impl<'a> Reader<'a> {
         let position = numbers::<3>(&mut words, line, "vertex")?;
         let has_color = words.clone().count() >= 3;
         self.has_vertex_colors |= has_color;
-        let color =
-            if has_color { Some(Rgba::opaque(numbers(&mut words, line, "vertex colour")?)) } else { None };
+        let color = if has_color {
+            Some(Rgba::opaque(numbers(&mut words, line, "vertex colour")?))
+        } else {
+            None
+        };
         self.builder.vertex(DVec3::from_array(position), None, color)?;
         Ok(())
     }
@@ -199,14 +202,17 @@ impl<'a> Reader<'a> {
         let mut parts = word.split('/');
         let [position, uv, normal] = std::array::from_fn(|_| parts.next().unwrap_or_default());
         let n_vertices = self.builder.n_vertices();
-        let vertex =
-            row(position, n_vertices).and_then(|row| self.builder.vertex_at(row)).ok_or_else(|| {
+        let vertex = row(position, n_vertices)
+            .and_then(|row| self.builder.vertex_at(row))
+            .ok_or_else(|| {
                 Problem::new(format!(
                     "a face refers to vertex `{}`, but there are {n_vertices} before it",
                     shorten(position)
                 ))
             })?;
-        let uv = row(uv, self.uvs.len()).filter(|&row| row < self.uvs.len() as u64).map(|row| row as u32);
+        let uv = row(uv, self.uvs.len())
+            .filter(|&row| row < self.uvs.len() as u64)
+            .map(|row| row as u32);
         if normal.is_empty() {
             return Ok(Corner { vertex, uv, normal: None });
         }
@@ -228,8 +234,10 @@ impl<'a> Reader<'a> {
             match read_named(self.input, name, self.material_room + 1) {
                 Ok((bytes, _)) => self.add_materials(name, &bytes)?,
                 Err(error) => {
-                    self.builder
-                        .warn(format!("colours are missing: cannot read `{}`: {error}", shorten(name)));
+                    self.builder.warn(format!(
+                        "colours are missing: cannot read `{}`: {error}",
+                        shorten(name)
+                    ));
                 }
             }
         }
@@ -273,12 +281,18 @@ impl<'a> Reader<'a> {
             let texture = loaded.as_ref().map(|LoadedTexture { image, .. }| {
                 let [red, green, blue, alpha] = color.0;
                 let factor = [red, green, blue].map(|part| srgb_decode(part.clamp(0.0, 1.0)));
-                let [red, green, blue, alpha] = [factor[0], factor[1], factor[2], alpha.clamp(0.0, 1.0)];
-                let factor =
-                    [red, green, blue, alpha].map(|part| if part.is_nan() { 0.0 } else { part as f32 });
+                let [red, green, blue, alpha] =
+                    [factor[0], factor[1], factor[2], alpha.clamp(0.0, 1.0)];
+                let factor = [red, green, blue, alpha]
+                    .map(|part| if part.is_nan() { 0.0 } else { part as f32 });
                 let mode = if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
                 let wrap = [if map.is_clamped { Wrap::Clamp } else { Wrap::Repeat }; 2];
-                Texture { factor, wrap, alpha: mode, ..Texture::new(ColorId::from_index(0), image.clone()) }
+                Texture {
+                    factor,
+                    wrap,
+                    alpha: mode,
+                    ..Texture::new(ColorId::from_index(0), image.clone())
+                }
             });
             let tinted = loaded.map_or(color, |LoadedTexture { mean, .. }| tinted(color, mean));
             let id = self.builder.material(tinted, name, texture, emitted);
@@ -302,7 +316,8 @@ impl<'a> Reader<'a> {
     fn texture(&mut self, file: &str) -> Option<LoadedTexture> {
         let load = || {
             let read = read_named(self.input, file, MAX_TEXTURE_BYTES);
-            read.map(|(bytes, name)| (bytes, TextureOrigin::File(name))).map_err(|error| error.to_string())
+            read.map(|(bytes, name)| (bytes, TextureOrigin::File(name)))
+                .map_err(|error| error.to_string())
         };
         self.textures.load(file, load)
     }
@@ -310,7 +325,10 @@ impl<'a> Reader<'a> {
     /// Builds the faces, after all vertices have been read.
     fn finish(mut self) -> Result<(), Problem> {
         if let (false, Some(line)) = (self.has_statement, self.unknown_line) {
-            return Err(Problem::at(line, "this is not an OBJ file: no line of it is a statement of OBJ"));
+            return Err(Problem::at(
+                line,
+                "this is not an OBJ file: no line of it is a statement of OBJ",
+            ));
         }
         let mut splitter = CornerSplitter::new(self.builder.n_vertices());
         let mut start = 0;
@@ -326,11 +344,12 @@ impl<'a> Reader<'a> {
             let corners = self.corners[start..end].iter().map(|&Corner { vertex, uv, normal }| {
                 let normal = normal.map(|row| self.normals[row as usize]).filter(|n| n.is_finite());
                 let uv = uv.filter(|_| has_texture).map(|row| self.uvs[row as usize]);
-                let uv = uv.map(|[u, v]| match color.and_then(|color| self.placements.get(&color)) {
-                    // v downwards, the placement is for upwards.
-                    Some([s, o]) => [u * s[0] + o[0], 1.0 - ((1.0 - v) * s[1] + o[1])],
-                    None => [u, v],
-                });
+                let uv =
+                    uv.map(|[u, v]| match color.and_then(|color| self.placements.get(&color)) {
+                        // v downwards, the placement is for upwards.
+                        Some([s, o]) => [u * s[0] + o[0], 1.0 - ((1.0 - v) * s[1] + o[1])],
+                        None => [u, v],
+                    });
                 splitter.vertex(self.builder, vertex, normal, uv)
             });
             let corners = corners.collect::<Result<Vec<_>, _>>()?;
@@ -346,8 +365,12 @@ impl<'a> Reader<'a> {
         if self.libraries.is_empty() && self.has_vertex_colors {
             self.unknown_materials.clear();
         }
-        let names: Vec<String> =
-            self.unknown_materials.iter().take(5).map(|name| format!("`{}`", shorten(name))).collect();
+        let names: Vec<String> = self
+            .unknown_materials
+            .iter()
+            .take(5)
+            .map(|name| format!("`{}`", shorten(name)))
+            .collect();
         if !names.is_empty() {
             let more = if self.unknown_materials.len() > names.len() { ", …" } else { "" };
             self.builder.warn(format!("materials without colour: {}{more}", names.join(", ")));
@@ -414,7 +437,8 @@ impl CornerSplitter {
         normal: Option<DVec3>,
         uv: Option<[f32; 2]>,
     ) -> Result<VertexId, Problem> {
-        let bits = (normal.map(|n| n.to_array().map(f64::to_bits)), uv.map(|uv| uv.map(f32::to_bits)));
+        let bits =
+            (normal.map(|n| n.to_array().map(f64::to_bits)), uv.map(|uv| uv.map(f32::to_bits)));
         let first = self.first[vertex.index()].get_or_insert_with(|| {
             builder.set_normal(vertex, normal);
             builder.set_uv(vertex, uv);

@@ -14,7 +14,8 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let text = decode(bytes);
     let mut words = Words::new(&text);
     let (kind, [n_vertices, n_faces]) = read_head(&mut words)?;
-    let lines = text.lines().skip(words.line).map(|line| line.split('#').next().unwrap_or_default().trim());
+    let lines =
+        text.lines().skip(words.line).map(|line| line.split('#').next().unwrap_or_default().trim());
     let lines = lines.filter(|line| !line.is_empty());
     let has_lines =
         lines.clone().take((n_vertices + n_faces) as usize).count() as u64 == n_vertices + n_faces;
@@ -49,7 +50,11 @@ struct Layout {
 
 /// True if a number of a colour is real. Colours are what follows the position and normal of a
 /// vertex, and the corners of a face.
-fn has_real_colors<'t>(lines: impl Iterator<Item = &'t str>, kind: Layout, n_vertices: u64) -> bool {
+fn has_real_colors<'t>(
+    lines: impl Iterator<Item = &'t str>,
+    kind: Layout,
+    n_vertices: u64,
+) -> bool {
     let n_before_color = if kind.has_normal { 6 } else { 3 };
     (0..).zip(lines).any(|(row, line)| {
         let mut words = line.split_whitespace();
@@ -67,7 +72,9 @@ fn is_real(word: &str) -> bool {
 }
 
 fn ends_early(announced: u64, what: &str, n_read: u64) -> Problem {
-    Problem::new(format!("{announced} {what} are declared, but the file ends after {n_read}; copy it again"))
+    Problem::new(format!(
+        "{announced} {what} are declared, but the file ends after {n_read}; copy it again"
+    ))
 }
 
 /// Reads the keyword, which may be missing, and the counts, which may be on the same line, even
@@ -80,13 +87,15 @@ fn read_head(words: &mut Words<'_>) -> Result<(Layout, [u64; 2]), Problem> {
         let is_binary = words.clone().rest_of_line().any(|word| word == "BINARY");
         if keyword.contains(['4', 'n']) || is_binary {
             let binary = if is_binary { " BINARY" } else { "" };
-            let what =
-                format!("`{keyword}{binary}` is not supported; export three-dimensional ASCII OFF, or PLY");
+            let what = format!(
+                "`{keyword}{binary}` is not supported; export three-dimensional ASCII OFF, or PLY"
+            );
             return Err(Problem::at(words.line, what));
         }
         // `STOFF` has no normals, `ST` is for texture.
         let letters = keyword.trim_start_matches("ST");
-        kind = Layout { has_normal: letters.contains('N'), has_color: letters.contains('C'), ..kind };
+        kind =
+            Layout { has_normal: letters.contains('N'), has_color: letters.contains('C'), ..kind };
         first = if glued.is_empty() { words.next().ok_or_else(nothing)? } else { glued };
     }
     let line = words.line;
@@ -100,7 +109,11 @@ fn read_head(words: &mut Words<'_>) -> Result<(Layout, [u64; 2]), Problem> {
     }
 }
 
-fn read_vertex(words: &mut Words<'_>, layout: Layout, builder: &mut Builder) -> Result<(), Problem> {
+fn read_vertex(
+    words: &mut Words<'_>,
+    layout: Layout,
+    builder: &mut Builder,
+) -> Result<(), Problem> {
     let n_numbers = 3 + 3 * usize::from(layout.has_normal) + 4 * usize::from(layout.has_color);
     let mut fields: Vec<&str> = words.next().into_iter().collect();
     let line = words.line;
@@ -111,7 +124,8 @@ fn read_vertex(words: &mut Words<'_>, layout: Layout, builder: &mut Builder) -> 
     }
     let mut fields = fields.into_iter();
     let position = numbers::<3>(&mut fields, line, "vertex")?;
-    let normal = if layout.has_normal { Some(numbers::<3>(&mut fields, line, "normal")?) } else { None };
+    let normal =
+        if layout.has_normal { Some(numbers::<3>(&mut fields, line, "normal")?) } else { None };
     let color = if layout.has_color { color(fields, line, layout)? } else { None };
     builder.line = u32::try_from(line).unwrap_or(u32::MAX);
     builder.vertex(DVec3::from_array(position), normal.map(DVec3::from_array), color)?;
@@ -125,13 +139,14 @@ fn read_face(
     builder: &mut Builder,
 ) -> Result<(), Problem> {
     let line = words.line;
-    let n_corners: u64 =
-        first.parse().map_err(|_| Problem::at(line, "a face begins with the number of its corners"))?;
+    let n_corners: u64 = first
+        .parse()
+        .map_err(|_| Problem::at(line, "a face begins with the number of its corners"))?;
     let mut corners = Vec::new();
     for n_read in 0..n_corners {
-        let word = words
-            .next()
-            .ok_or_else(|| Problem::at(line, format!("a face of {n_corners} corners ends after {n_read}")))?;
+        let word = words.next().ok_or_else(|| {
+            Problem::at(line, format!("a face of {n_corners} corners ends after {n_read}"))
+        })?;
         let corner = word.parse().ok().and_then(|idx| builder.vertex_at(idx)).ok_or_else(|| {
             let last = builder.n_vertices() as i64 - 1;
             let what = format!(
@@ -161,7 +176,8 @@ fn color<'w>(
     for word in &words {
         parts.push(number(word, line, "colour")?);
     }
-    let is_real = words.into_iter().any(is_real) || layout.is_real && parts.iter().all(|&part| part <= 1.0);
+    let is_real =
+        words.into_iter().any(is_real) || layout.is_real && parts.iter().all(|&part| part <= 1.0);
     if !is_real {
         parts.iter_mut().for_each(|part| *part /= 255.0);
     }

@@ -16,7 +16,8 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let (elements, mut body) = read_header(bytes, builder)?;
     let vertex = elements.iter().find(|element| element.name == "vertex");
     let vertex = vertex.ok_or_else(|| Problem::new("the element `vertex` is missing"))?;
-    let has = |slot: usize| vertex.properties.iter().any(|property| property.role == Role::Number(slot));
+    let has =
+        |slot: usize| vertex.properties.iter().any(|property| property.role == Role::Number(slot));
     if let Some(slot) = (0..3).find(|&slot| !has(slot)) {
         return Err(Problem::new(format!("vertices have no property `{}`", NUMBERS[slot])));
     }
@@ -108,16 +109,20 @@ fn next_line(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((&bytes[..len], &bytes[after..]))
 }
 
-fn read_header<'a>(bytes: &'a [u8], builder: &mut Builder) -> Result<(Vec<Element>, Body<'a>), Problem> {
+fn read_header<'a>(
+    bytes: &'a [u8],
+    builder: &mut Builder,
+) -> Result<(Vec<Element>, Body<'a>), Problem> {
     let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut elements: Vec<Element> = Vec::new();
     let mut format = None;
     for line in 1.. {
-        let (text, after) =
-            next_line(rest).ok_or_else(|| Problem::at(line, "the header has no line `end_header`"))?;
+        let (text, after) = next_line(rest)
+            .ok_or_else(|| Problem::at(line, "the header has no line `end_header`"))?;
         rest = after;
         let text = String::from_utf8_lossy(text);
-        let bad = || Problem::at(line, format!("`{}` is not a line of a PLY header", shorten(&text)));
+        let bad =
+            || Problem::at(line, format!("`{}` is not a line of a PLY header", shorten(&text)));
         let mut words = text.split_whitespace();
         match (words.next(), words.next()) {
             (Some("ply"), None) if line == 1 => {}
@@ -126,7 +131,10 @@ fn read_header<'a>(bytes: &'a [u8], builder: &mut Builder) -> Result<(Vec<Elemen
                 builder.comment(text.trim_start().strip_prefix("comment").unwrap_or_default());
             }
             (Some("obj_info") | None, _) => {}
-            (Some("format"), Some(kind @ ("ascii" | "binary_little_endian" | "binary_big_endian"))) => {
+            (
+                Some("format"),
+                Some(kind @ ("ascii" | "binary_little_endian" | "binary_big_endian")),
+            ) => {
                 format = Some((kind == "ascii", kind == "binary_little_endian"));
             }
             (Some("element"), Some(name)) => {
@@ -152,7 +160,12 @@ fn read_header<'a>(bytes: &'a [u8], builder: &mut Builder) -> Result<(Vec<Elemen
                 check_counts(&elements, rest.len())?;
                 let (is_text, is_little_endian) =
                     format.ok_or_else(|| Problem::at(line, "the header has no line `format`"))?;
-                let body = Body { bytes: rest, at: 0, line: is_text.then_some(line + 1), is_little_endian };
+                let body = Body {
+                    bytes: rest,
+                    at: 0,
+                    line: is_text.then_some(line + 1),
+                    is_little_endian,
+                };
                 return Ok((elements, body));
             }
             _ => return Err(bad()),
@@ -163,7 +176,11 @@ fn read_header<'a>(bytes: &'a [u8], builder: &mut Builder) -> Result<(Vec<Elemen
 
 fn role(name: &str, length: Option<Kind>) -> Role {
     if length.is_some() {
-        return if matches!(name, "vertex_indices" | "vertex_index") { Role::Corners } else { Role::Ignored };
+        return if matches!(name, "vertex_indices" | "vertex_index") {
+            Role::Corners
+        } else {
+            Role::Ignored
+        };
     }
     let name = ALIASES.iter().find(|(alias, _)| *alias == name).map_or(name, |(_, name)| name);
     NUMBERS.iter().position(|known| *known == name).map_or(Role::Ignored, Role::Number)
@@ -234,7 +251,12 @@ fn read_element(
     Ok(())
 }
 
-fn add_row(name: &str, numbers: &[f64; 10], corners: &[i64], builder: &mut Builder) -> Result<(), Problem> {
+fn add_row(
+    name: &str,
+    numbers: &[f64; 10],
+    corners: &[i64],
+    builder: &mut Builder,
+) -> Result<(), Problem> {
     let [x, y, z, nx, ny, nz, red, green, blue, alpha] = *numbers;
     let alpha = if alpha.is_nan() { 1.0 } else { alpha };
     let color = (!(red + green + blue).is_nan()).then_some(Rgba([red, green, blue, alpha]));
@@ -265,7 +287,9 @@ fn vertices(builder: &Builder, corners: &[i64]) -> Result<Vec<VertexId>, Problem
     let vertex = |&idx: &i64| {
         u64::try_from(idx).ok().and_then(|idx| builder.vertex_at(idx)).ok_or_else(|| {
             let last = builder.n_vertices() as i64 - 1;
-            Problem::new(format!("a face refers to vertex {idx}, but vertices are numbered from 0 to {last}"))
+            Problem::new(format!(
+                "a face refers to vertex {idx}, but vertices are numbered from 0 to {last}"
+            ))
         })
     };
     corners.iter().map(vertex).collect()
@@ -291,7 +315,8 @@ impl Body<'_> {
         }
         self.at += len;
         let word = std::str::from_utf8(&rest[..len]).unwrap_or("\u{fffd}");
-        let number = any_number(word).ok_or_else(|| not_a_number(word, *line, "is not a number"))?;
+        let number =
+            any_number(word).ok_or_else(|| not_a_number(word, *line, "is not a number"))?;
         // As in a binary file.
         Ok(if kind == Kind::F32 { f64::from(number as f32) } else { number })
     }

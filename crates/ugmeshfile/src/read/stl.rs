@@ -16,7 +16,8 @@ use crate::format::is_binary_stl;
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let mut merged = MergedVertices { builder, by_place: FxHashMap::default() };
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let is_text =
+        bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     // Headers of binary files may begin so, too.
     let has_zeros = bytes[..bytes.len().min(1024)].contains(&0);
     match (is_text, bytes.is_empty() || has_zeros || is_binary_stl(bytes)) {
@@ -56,14 +57,15 @@ fn read_binary(bytes: &[u8], merged: &mut MergedVertices) -> Result<(), Problem>
     let declared = u32_at(header, 80) as usize;
     let available = triangles.len() / 50;
     if available < declared {
-        let what =
-            format!("{declared} triangles are declared, but the file ends after {available}; copy it again");
+        let what = format!(
+            "{declared} triangles are declared, but the file ends after {available}; copy it again"
+        );
         return Err(Problem::new(what));
     }
     if available > declared {
-        merged
-            .builder
-            .warn(format!("{declared} triangles are declared, and all {available} of the file are read"));
+        merged.builder.warn(format!(
+            "{declared} triangles are declared, and all {available} of the file are read"
+        ));
     }
     for triangle in triangles.chunks_exact(50) {
         let corner = |first: usize| {
@@ -99,7 +101,10 @@ fn read_text(text: &str, merged: &mut MergedVertices) -> Result<(), Problem> {
             }
             "endloop" => {
                 let Ok(triangle) = <[[f64; 3]; 3]>::try_from(&corners[..]) else {
-                    return Err(Problem::at(line, format!("a facet has {} corners, not 3", corners.len())));
+                    return Err(Problem::at(
+                        line,
+                        format!("a facet has {} corners, not 3", corners.len()),
+                    ));
                 };
                 let at_line = |problem: Problem| Problem { line: Some(line), ..problem };
                 merged.triangle(triangle).map_err(at_line)?;
@@ -109,8 +114,17 @@ fn read_text(text: &str, merged: &mut MergedVertices) -> Result<(), Problem> {
             "facet" | "endfacet" | "outer" | "loop" | "normal" | "color" => {}
             // Of normals and colours.
             _ if any_number(word).is_some() => {}
-            _ => return Err(Problem::at(line, format!("`{}` is not a keyword of STL", shorten(word)))),
+            _ => {
+                return Err(Problem::at(
+                    line,
+                    format!("`{}` is not a keyword of STL", shorten(word)),
+                ));
+            }
         }
     }
-    if corners.is_empty() { Ok(()) } else { Err(Problem::new("the file ends inside a facet; copy it again")) }
+    if corners.is_empty() {
+        Ok(())
+    } else {
+        Err(Problem::new("the file ends inside a facet; copy it again"))
+    }
 }

@@ -78,8 +78,9 @@ pub(super) fn numbers<'a, const N: usize>(
 ) -> Result<[f64; N], Problem> {
     let mut values = [0.0; N];
     for value in &mut values {
-        let word =
-            words.next().ok_or_else(|| Problem::at(line, format!("a {what} needs {N} numbers or more")))?;
+        let word = words
+            .next()
+            .ok_or_else(|| Problem::at(line, format!("a {what} needs {N} numbers or more")))?;
         *value = number(word, line, what)?;
     }
     Ok(values)

@@ -30,7 +30,12 @@ fn meshes_are_told_from_scenes() {
 #[test]
 fn formats_are_detected() {
     fn check(name: &str, bytes: &[u8], expected: Option<MeshFormat>) {
-        assert_eq!(MeshFormat::detect(name, bytes), expected, "{name}: {}", String::from_utf8_lossy(bytes));
+        assert_eq!(
+            MeshFormat::detect(name, bytes),
+            expected,
+            "{name}: {}",
+            String::from_utf8_lossy(bytes)
+        );
     }
     let stdin = "<stdin>";
     check(stdin, b"ply\nformat ascii 1.0\n", Some(MeshFormat::Ply));
@@ -79,10 +84,16 @@ fn faces_have_the_mean_linear_light_of_their_textures() {
             Ok(if name == "texture" { texture.clone() } else { materials })
         };
         let mesh = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paper\nf 1 2 3\n";
-        let mesh = read(MeshFormat::Obj, mesh, &beside, "").map_err(|problem| problem.what).unwrap();
-        let ColorValue::Rgb(rgb) = mesh.scene.colors[0].value else { panic!("not red, green and blue") };
+        let mesh =
+            read(MeshFormat::Obj, mesh, &beside, "").map_err(|problem| problem.what).unwrap();
+        let ColorValue::Rgb(rgb) = mesh.scene.colors[0].value else {
+            panic!("not red, green and blue")
+        };
         let light = rgb.map(ugphysics::srgb_decode);
-        assert!(light.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{light:?} {expected:?}");
+        assert!(
+            light.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3),
+            "{light:?} {expected:?}"
+        );
     };
     let png = |pixels: Vec<[u8; 4]>, is_opaque: bool| {
         Format::Png.encode(&Frame::new([2, 1], is_opaque, pixels), &Metadata::default())

@@ -89,8 +89,10 @@ impl<'s> Counts<'s> {
         }
         let bodies = bodies(self.scene);
         for (row, (velocity, faces, wires)) in bodies.iter().enumerate() {
-            let velocity = velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v.beta())));
-            let label = if row == 0 { format!("bodies {:>10} ", bodies.len()) } else { String::new() };
+            let velocity =
+                velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v.beta())));
+            let label =
+                if row == 0 { format!("bodies {:>10} ", bodies.len()) } else { String::new() };
             line(&label, format!("{velocity}: {faces} faces, {wires} wires"));
         }
         out
@@ -152,8 +154,11 @@ fn statements(source: &Source, parsed: &Parsed, options: &Options) -> Vec<Statem
     let mut document = read(&source.text, options, &mut Vec::new());
     stage_statement::take(&source.text, &mut document, &mut Vec::new());
     let written = |count: fn(&Scope<'_>) -> usize| document.scopes.iter().map(count).sum();
-    let row =
-        |kind, count: fn(&Scope<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
+    let row = |kind, count: fn(&Scope<'_>) -> usize, placed| Statements {
+        kind,
+        written: written(count),
+        placed,
+    };
     let n_labels = scene.labels().count();
     let n_escapes = escape_count(&passed_on.statements);
     let n_unknown = passed_on.statements.len() - n_escapes;
@@ -162,12 +167,20 @@ fn statements(source: &Source, parsed: &Parsed, options: &Options) -> Vec<Statem
         row("surfaces", |scope| scope.surfaces.table.len(), Some(scene.surfaces.len())),
         row("vertices", |scope| scope.vertices.len(), Some(scene.vertices.len())),
         row("faces", |scope| scope.faces.len(), Some(scene.faces.len())),
-        row("wires", |scope| scope.wires.len() - label_count(scope), Some(scene.wires.len() - n_labels)),
+        row(
+            "wires",
+            |scope| scope.wires.len() - label_count(scope),
+            Some(scene.wires.len() - n_labels),
+        ),
         row("labels", label_count, Some(n_labels)),
         row("lights", |scope| scope.lights.len(), Some(scene.lights.len())),
         row("cameras", |scope| scope.cameras.len(), Some(scene.cameras.len())),
         row("escapes", |scope| escape_count(&scope.passed_on.rows), Some(n_escapes)),
-        row("unknown", |scope| scope.passed_on.len() - escape_count(&scope.passed_on.rows), Some(n_unknown)),
+        row(
+            "unknown",
+            |scope| scope.passed_on.len() - escape_count(&scope.passed_on.rows),
+            Some(n_unknown),
+        ),
         row("definitions", |scope| scope.definitions.len(), None),
         row("instances", |scope| scope.calls.len() - array_count(scope), None),
         row("arrays", array_count, None),

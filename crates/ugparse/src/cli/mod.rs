@@ -76,7 +76,8 @@ enum Format {
 }
 
 impl ToolArgs for Args {
-    const ESSENTIAL: &'static [&'static str] = &["--format", "-lax", "--limit", "-qt", "-vb", "-fo"];
+    const ESSENTIAL: &'static [&'static str] =
+        &["--format", "-lax", "--limit", "-qt", "-vb", "-fo"];
 
     fn common(&self) -> &CommonArgs {
         &self.command_args().common
@@ -87,7 +88,10 @@ impl Args {
     fn command_args(&self) -> &CommandArgs {
         match &self.command {
             Some(
-                Command::Check(args) | Command::Tidy(args) | Command::Flatten(args) | Command::Count(args),
+                Command::Check(args)
+                | Command::Tidy(args)
+                | Command::Flatten(args)
+                | Command::Count(args),
             ) => args,
             Some(Command::Example(_)) | None => &self.rest,
         }
@@ -104,7 +108,9 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     let CommandArgs { format, hues, common } = args.command_args();
     let is_json = *format == Format::Json;
     if is_json && matches!(args.command, Some(Command::Tidy(_) | Command::Flatten(_))) {
-        return Err(Failure::usage("a scene is not written as JSON; -format is for check and count"));
+        return Err(Failure::usage(
+            "a scene is not written as JSON; -format is for check and count",
+        ));
     }
     if *hues && !matches!(args.command, Some(Command::Flatten(_))) {
         return Err(Failure::usage(
@@ -157,7 +163,11 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
 /// failure of this one.
 const EMPTY: &[u8] = b"\n";
 
-fn read(source: Source, options: &Options, context: &Context) -> Result<(Source, Parsed), Diagnostics> {
+fn read(
+    source: Source,
+    options: &Options,
+    context: &Context,
+) -> Result<(Source, Parsed), Diagnostics> {
     let source = pipe::follow(source, options, context)?;
     let parsed = crate::parse(&source, options)?;
     Ok((source, parsed))
@@ -170,7 +180,12 @@ fn warn(warnings: &Diagnostics, context: &Context) {
 }
 
 /// Reports all findings; returns false if the scene is invalid.
-fn check(source: Source, options: &Options, is_json: bool, context: &mut Context) -> Result<bool, Failure> {
+fn check(
+    source: Source,
+    options: &Options,
+    is_json: bool,
+    context: &mut Context,
+) -> Result<bool, Failure> {
     let name = source.name.clone();
     let (is_usable, findings) = match read(source, options, context) {
         Ok((_, parsed)) => (true, parsed.warnings),
@@ -197,9 +212,14 @@ fn check(source: Source, options: &Options, is_json: bool, context: &mut Context
 /// `2 errors, 1 warning`
 fn summary(findings: &Diagnostics) -> String {
     let of = |severity| findings.list.iter().filter(|finding| finding.severity == severity).count();
-    let several = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let several =
+        |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let (errors, warnings) = (of(Severity::Error), of(Severity::Warning));
-    let more = if findings.omitted > 0 { format!(", and {} more", findings.omitted) } else { String::new() };
+    let more = if findings.omitted > 0 {
+        format!(", and {} more", findings.omitted)
+    } else {
+        String::new()
+    };
     format!("{}, {}{more}", several(errors, "error"), several(warnings, "warning"))
 }
 

@@ -32,7 +32,12 @@ impl Expander<'_, '_> {
 
     /// The body with a velocity that is stated where `inherited` holds. `frame`: its velocity and
     /// displacement are turned here. `span`: the statement, for errors.
-    pub(super) fn frame_in(&mut self, frame: InertialFrame, span: Span, inherited: &Inherited) -> BodyId {
+    pub(super) fn frame_in(
+        &mut self,
+        frame: InertialFrame,
+        span: Span,
+        inherited: &Inherited,
+    ) -> BodyId {
         self.check_finite(span, frame.at);
         let frame = self.composed(frame, inherited).unwrap_or_else(|(message, help)| {
             self.fail(span, &message, help);
@@ -55,24 +60,34 @@ impl Expander<'_, '_> {
             let message = "this velocity has no direction where it is placed".to_owned();
             (message, "place it without a scale of 0")
         })?;
-        let velocity = Velocity::from_stated(turned, gamma).map_err(|error| too_fast(error.into()))?;
+        let velocity =
+            Velocity::from_stated(turned, gamma).map_err(|error| too_fast(error.into()))?;
         let mut shift = frame.shift;
         shift.x = inherited.transform.direction(shift.x);
         let frame = InertialFrame { velocity, shift, ..frame };
         let Some(carrier) = inherited.body else { return Ok(frame) };
         let carrier = self.bodies.bodies.motion(carrier).inertial_frame().ok_or_else(|| {
             let message = "a velocity is stated on a body that accelerates or turns".to_owned();
-            (message, "give the part a `motion` with `-on`, which makes it a fixed point of that body")
+            (
+                message,
+                "give the part a `motion` with `-on`, which makes it a fixed point of that body",
+            )
         })?;
         carrier.carrying(&frame).map_err(too_fast)
     }
 
     /// A body with a name where `inherited` holds: it is one body, wherever its parts are placed, so
     /// an instance that moves otherwise may not contain it.
-    pub(super) fn named_body_in(&mut self, body: BodyId, name: Span, inherited: &Inherited) -> BodyId {
+    pub(super) fn named_body_in(
+        &mut self,
+        body: BodyId,
+        name: Span,
+        inherited: &Inherited,
+    ) -> BodyId {
         let bodies = &self.bodies.bodies;
         let carriers = |&body: &BodyId| bodies.statement(body).and_then(|motion| motion.body());
-        let rides_on = |carrier| std::iter::successors(Some(body), carriers).any(|body| body == carrier);
+        let rides_on =
+            |carrier| std::iter::successors(Some(body), carriers).any(|body| body == carrier);
         if inherited.body.is_some_and(|carrier| bodies.is_moving(carrier) && !rides_on(carrier)) {
             let shown = name.lossy(self.text);
             self.fail(
@@ -90,7 +105,8 @@ fn first_use(scope: &Scope<'_>, body: BodyId) -> Span {
     let faces = scope.faces.rows.iter().zip(&scope.faces.spans).find(|(face, _)| face.body == body);
     let wires = scope.wires.rows.iter().zip(&scope.wires.spans).find(|(wire, _)| wire.body == body);
     let is_light = |motion: LightMotion| motion.body() == Some(body);
-    let lights = scope.lights.rows.iter().zip(&scope.lights.spans).find(|(light, _)| is_light(light.motion));
+    let lights =
+        scope.lights.rows.iter().zip(&scope.lights.spans).find(|(light, _)| is_light(light.motion));
     let spans = [faces.map(|row| *row.1), wires.map(|row| *row.1), lights.map(|row| *row.1)];
     spans.into_iter().flatten().min().unwrap_or_default()
 }

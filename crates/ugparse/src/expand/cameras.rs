@@ -18,12 +18,14 @@ impl Expander<'_, '_> {
     /// be used instead. Requires that comments are attached already.
     pub(super) fn prefer_outer_camera(&mut self) -> Option<Diagnostic> {
         let used = self.scene.camera_row()?;
-        let is_nested =
-            |row: &usize| self.nested_cameras.binary_search_by_key(row, |nested| nested.row).is_ok();
+        let is_nested = |row: &usize| {
+            self.nested_cameras.binary_search_by_key(row, |nested| nested.row).is_ok()
+        };
         if !is_nested(&used) {
             return None;
         }
-        let (nested, outer): (Vec<usize>, Vec<usize>) = (0..self.scene.cameras.len()).partition(is_nested);
+        let (nested, outer): (Vec<usize>, Vec<usize>) =
+            (0..self.scene.cameras.len()).partition(is_nested);
         let spans = &self.origins.cameras;
         let Some(&first_outer) = outer.first() else { return several_copies(spans, used) };
         let (span, outer_span) = (spans[used], spans[first_outer]);
@@ -38,7 +40,12 @@ impl Expander<'_, '_> {
             .other(outer_span, "this one, outside definitions, is used")
             .help(format!("choose this one by its name `{name}`, or remove one of them"))
             .setting(Setting::Camera);
-        reorder(&mut self.scene, &mut self.passed_on, &mut self.origins.cameras, &[outer, nested].concat());
+        reorder(
+            &mut self.scene,
+            &mut self.passed_on,
+            &mut self.origins.cameras,
+            &[outer, nested].concat(),
+        );
         Some(warning)
     }
 }

@@ -12,8 +12,10 @@ impl Expander<'_, '_> {
     /// Records the spans of colours and surfaces.
     pub(super) fn note_definitions(&mut self, file: &Scope<'_>) {
         let scopes = || std::iter::once(file).chain(self.scopes);
-        let colors: Vec<Span> = scopes().flat_map(|scope| &scope.colors.table.spans).copied().collect();
-        let surfaces: Vec<Span> = scopes().flat_map(|scope| &scope.surfaces.table.spans).copied().collect();
+        let colors: Vec<Span> =
+            scopes().flat_map(|scope| &scope.colors.table.spans).copied().collect();
+        let surfaces: Vec<Span> =
+            scopes().flat_map(|scope| &scope.surfaces.table.spans).copied().collect();
         self.note(&colors, 0, Item::Color);
         self.note(&surfaces, 0, Item::Surface);
     }
@@ -60,7 +62,11 @@ impl Expander<'_, '_> {
 }
 
 /// Statements with the first row of each. `is_flat`: none has several.
-fn firsts<I: Fn(u32) -> Item>(is_flat: bool, spans: &[Span], item: I) -> impl Iterator<Item = (Span, Item)> {
+fn firsts<I: Fn(u32) -> Item>(
+    is_flat: bool,
+    spans: &[Span],
+    item: I,
+) -> impl Iterator<Item = (Span, Item)> {
     let mut known = FxHashSet::default();
     let rows = spans.iter().zip(0..);
     rows.filter(move |(span, _)| is_flat || known.insert(span.start))
@@ -73,7 +79,8 @@ fn item_at(text: &[u8], emitted: &[(Span, Item)], comment: &CommentSpan) -> (Ite
     let behind = emitted.partition_point(|(span, _)| span.start < position);
     if let Some(&(span, item)) = behind.checked_sub(1).and_then(|idx| emitted.get(idx)) {
         let inside = position < span.end;
-        let on_its_line = comment.trailing && !text[span.end as usize..position as usize].contains(&b'\n');
+        let on_its_line =
+            comment.trailing && !text[span.end as usize..position as usize].contains(&b'\n');
         if inside || on_its_line {
             return (item, on_its_line);
         }

@@ -16,7 +16,8 @@ pub(super) fn follow_vertices(scene: &mut Scene) {
     if bodies.is_empty() {
         return;
     }
-    let lines = wires.iter().filter(|wire| wire.text.is_none()).map(|wire| (&wire.contours, wire.body));
+    let lines =
+        wires.iter().filter(|wire| wire.text.is_none()).map(|wire| (&wire.contours, wire.body));
     let users = faces.iter().map(|face| (&face.contours, face.body)).chain(lines);
     // In reverse, so that the first user is entered last.
     for (rows, body) in users.collect::<Vec<_>>().into_iter().rev() {

@@ -93,7 +93,8 @@ fn expand_here<'t>(
 ) -> (Scene, PassedOn, Origins) {
     // Only comments after the head require the spans of statements.
     let first_statement = document.first_statement.unwrap_or(u32::MAX);
-    let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
+    let has_comments =
+        document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
     let mut file = std::mem::take(&mut document.scopes[0]);
     let mut expander = Expander {
         text,
@@ -218,8 +219,8 @@ impl<'t> Expander<'_, 't> {
         let first_vertex = self.next_vertex as u32;
         self.next_vertex += scope.vertices.len();
         let paths = scope.paths.iter();
-        let paths =
-            paths.filter_map(|path| Some((path.corner, self.find_path(&inherited.prefix, path.name)?)));
+        let paths = paths
+            .filter_map(|path| Some((path.corner, self.find_path(&inherited.prefix, path.name)?)));
         let paths: FxHashMap<usize, VertexId> = paths.collect();
         if paths.len() < scope.paths.len() {
             return;
@@ -239,8 +240,9 @@ impl<'t> Expander<'_, 't> {
             first_time,
             first_color: self.links.first_colors[row],
             first_shading,
-            outer_default: default
-                .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
+            outer_default: default.map(|(outer, color)| {
+                ColorId::from_index(self.links.first_colors[outer] + color as usize)
+            }),
         };
         let mut done = Counts::default();
         for call in &scope.calls.rows {
@@ -252,7 +254,12 @@ impl<'t> Expander<'_, 't> {
     }
 
     /// Calls `place` for every copy of an instance or array.
-    fn call(&mut self, call: &Call, inherited: &Inherited, place: fn(&mut Self, usize, &Inherited)) {
+    fn call(
+        &mut self,
+        call: &Call,
+        inherited: &Inherited,
+        place: fn(&mut Self, usize, &Inherited),
+    ) {
         let (Some(target), label) = (call.target, &call.label) else { return };
         let transform = call.inner.then(&inherited.transform);
         let body = match call.motion {
@@ -262,7 +269,9 @@ impl<'t> Expander<'_, 't> {
                 Some(self.named_body_in(body, name, inherited))
             }
             Some(MotionReference::Frame(frame)) => {
-                let at = frame.at.map_or(transform.point(DVec3::ZERO), |at| inherited.transform.point(at));
+                let at = frame
+                    .at
+                    .map_or(transform.point(DVec3::ZERO), |at| inherited.transform.point(at));
                 let frame = StatedFrame { at: Some(at), ..frame };
                 Some(self.frame_in(frame.about(at), call.definition, inherited))
             }

@@ -49,7 +49,11 @@ impl Expander<'_, '_> {
                 let shown = motion.name.lossy(self.text);
                 let places = [motion.name, statements.rows[first].name];
                 let help = "give one of them another name: each is a body of its own";
-                findings.push(Diagnostic::again(places, format!("motion `{shown}` is defined twice"), help));
+                findings.push(Diagnostic::again(
+                    places,
+                    format!("motion `{shown}` is defined twice"),
+                    help,
+                ));
             }
         }
         if findings.is_empty() {
@@ -68,17 +72,23 @@ impl Expander<'_, '_> {
 
     /// Names that no statement defines, and vertices that cannot move as their bodies do; after all
     /// definitions are expanded. The bodies become those of the scene.
-    pub(super) fn finish_motions(&mut self, motions: &Motions<'_>, is_valid: bool) -> Option<Diagnostic> {
+    pub(super) fn finish_motions(
+        &mut self,
+        motions: &Motions<'_>,
+        is_valid: bool,
+    ) -> Option<Diagnostic> {
         self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
         self.note_motions(motions);
-        let check = || self.undefined_motions(motions).and_then(|()| self.check_points(motions)).err();
+        let check =
+            || self.undefined_motions(motions).and_then(|()| self.check_points(motions)).err();
         if is_valid { check() } else { None }
     }
 
     /// An error for the first name that no statement defines.
     fn undefined_motions(&self, motions: &Motions<'_>) -> Result<(), Diagnostic> {
         let names = self.bodies.names();
-        let Some(&(_, name)) = names.iter().find(|(body, _)| !motions.rows.contains_key(body)) else {
+        let Some(&(_, name)) = names.iter().find(|(body, _)| !motions.rows.contains_key(body))
+        else {
             return Ok(());
         };
         let remedy = "define it with a `motion` statement";
@@ -87,12 +97,18 @@ impl Expander<'_, '_> {
     }
 
     /// An error if motions take over more pieces than [`MAX_CARRIED_PIECES`]. Circles end it, too.
-    fn too_many_pieces(&mut self, motions: &Motions<'_>, names: &[(BodyId, Span)]) -> Result<(), Diagnostic> {
+    fn too_many_pieces(
+        &mut self,
+        motions: &Motions<'_>,
+        names: &[(BodyId, Span)],
+    ) -> Result<(), Diagnostic> {
         let mut n_pieces = 0;
         for &(body, name) in names {
             let mut row = motions.rows[&body];
             for _ in 0..MAX_CARRIERS {
-                let Some(MotionReference::Named(carrier)) = motions.statements.rows[row].on else { break };
+                let Some(MotionReference::Named(carrier)) = motions.statements.rows[row].on else {
+                    break;
+                };
                 let carrier = self.bodies.named(self.text, carrier);
                 row = motions.rows[&carrier];
                 let statement = &motions.statements.rows[row];
@@ -114,8 +130,7 @@ impl Expander<'_, '_> {
     fn inner_motions(&self) -> Vec<Diagnostic> {
         let inner = self.scopes.iter().flat_map(|scope| scope.motions.spans.first()).next();
         let error = |&span: &Span| {
-            let help =
-                "state it outside: it is one body of the scene, however often the definition is placed";
+            let help = "state it outside: it is one body of the scene, however often the definition is placed";
             Diagnostic::here(span, "a motion is inside a definition", help)
         };
         inner.map(error).into_iter().collect()
@@ -125,7 +140,9 @@ impl Expander<'_, '_> {
     fn paths(&mut self, motions: &Motions<'_>) -> Result<Vec<Option<SampledPath>>, Diagnostic> {
         let statements = &motions.statements.rows;
         let own = |motion: &MotionStatement| {
-            let Some(PathStatement::Events { span, events }) = &motion.path else { return Ok(None) };
+            let Some(PathStatement::Events { span, events }) = &motion.path else {
+                return Ok(None);
+            };
             let path = SampledPath::new(events);
             let spans = |row| event_span(self.text, *span, row);
             path.map(Some).map_err(|error| impossible_path(&error, spans))
@@ -137,9 +154,12 @@ impl Expander<'_, '_> {
             let path = motions.rows.get(&other).map(|&other| &statements[other].path);
             if !matches!(path, Some(Some(PathStatement::Events { .. }))) {
                 let shown = name.lossy(self.text);
-                return Err(Diagnostic::error(name, format!("motion `{shown}` states no table of a path"))
-                    .label("used here")
-                    .help("name a motion that has `-path` with a file or with events"));
+                return Err(Diagnostic::error(
+                    name,
+                    format!("motion `{shown}` states no table of a path"),
+                )
+                .label("used here")
+                .help("name a motion that has `-path` with a file or with events"));
             }
             paths[row] = paths[motions.rows[&other]].clone();
         }
@@ -155,7 +175,12 @@ impl Expander<'_, '_> {
         }
     }
 
-    fn set_motion(&mut self, motions: &Motions<'_>, body: BodyId, name: Span) -> Result<(), Diagnostic> {
+    fn set_motion(
+        &mut self,
+        motions: &Motions<'_>,
+        body: BodyId,
+        name: Span,
+    ) -> Result<(), Diagnostic> {
         let (motion, line) = self.motion(motions, body, 0)?;
         let name = name.lossy(self.text);
         let name = self.scene.names.add(&name);
@@ -173,8 +198,10 @@ impl Expander<'_, '_> {
         let row = motions.rows[&body];
         let (statement, span) = (&motions.statements.rows[row], motions.statements.spans[row]);
         if depth > MAX_CARRIERS {
-            let error = Diagnostic::error(span, "motions are part of each other in a circle, or too many");
-            let help = format!("a motion may be part of {MAX_CARRIERS} others at most, and not of itself");
+            let error =
+                Diagnostic::error(span, "motions are part of each other in a circle, or too many");
+            let help =
+                format!("a motion may be part of {MAX_CARRIERS} others at most, and not of itself");
             return Err(error.label("this one").help(help));
         }
         let MotionStatement { at, velocity, accelerations, spins, on, shift, .. } = statement;
@@ -183,7 +210,9 @@ impl Expander<'_, '_> {
                 MotionPath::Curve { kind, numbers: numbers.clone() }
             }
             (_, Some(path)) => MotionPath::Along(path.clone()),
-            (_, None) => MotionPath::Free { velocity: *velocity, accelerations: accelerations.clone() },
+            (_, None) => {
+                MotionPath::Free { velocity: *velocity, accelerations: accelerations.clone() }
+            }
         };
         let (on, carrier) = match on {
             None => (None, WorldLine::REST),
@@ -198,9 +227,14 @@ impl Expander<'_, '_> {
         let motion = StatedMotion { at: *at, path, spins: spins.clone(), on, shift: *shift };
         match motion.world_line(&carrier).map_err(|error| impossible(span, &error))? {
             Some(line) => Ok((motion, line)),
-            None => Err(Diagnostic::error(span, "the motion is on a body that accelerates or turns")
-                .label("this motion")
-                .help("only a fixed point of such a body can carry it: remove all but `-at` and `-spin`")),
+            None => Err(Diagnostic::error(
+                span,
+                "the motion is on a body that accelerates or turns",
+            )
+            .label("this motion")
+            .help(
+                "only a fixed point of such a body can carry it: remove all but `-at` and `-spin`",
+            )),
         }
     }
 
@@ -227,7 +261,8 @@ impl Expander<'_, '_> {
             }
         }
         for (light, &span) in scene.lights.iter().zip(&self.origins.lights) {
-            let (LightKind::Local { position, radius, .. }, Some(body)) = (light.kind, light.motion.body())
+            let (LightKind::Local { position, radius, .. }, Some(body)) =
+                (light.kind, light.motion.body())
             else {
                 continue;
             };
@@ -278,8 +313,9 @@ fn too_far(
     motion: Option<Span>,
 ) -> Diagnostic {
     let name = if name.is_empty() { String::new() } else { format!(" `{name}`") };
-    let error = Diagnostic::error(point, format!("{kind}{name} cannot move with its body: {error}"))
-        .label(format!("this {kind}"));
+    let error =
+        Diagnostic::error(point, format!("{kind}{name} cannot move with its body: {error}"))
+            .label(format!("this {kind}"));
     let error = match motion {
         Some(motion) => error.other(motion, "moves so"),
         None => error,

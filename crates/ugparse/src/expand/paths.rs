@@ -9,7 +9,12 @@ use crate::scope::{Scope, as_str};
 use crate::source::Span;
 
 impl Expander<'_, '_> {
-    pub(super) fn name(&mut self, scope: &Scope<'_>, name: NameId, inherited: &Inherited) -> NameId {
+    pub(super) fn name(
+        &mut self,
+        scope: &Scope<'_>,
+        name: NameId,
+        inherited: &Inherited,
+    ) -> NameId {
         self.scene.names.add_parts(&[
             &inherited.prefix,
             if inherited.prefix.is_empty() { "" } else { ":" },
@@ -59,9 +64,12 @@ impl Expander<'_, '_> {
         let colon = if prefix.is_empty() { "" } else { ":" };
         let found = self.path_rows.get(&format!("{prefix}{colon}{own}")).copied();
         if found.is_none() {
-            let remedy = "the path of a vertex is `instance:vertex`, or `array#3:vertex` for copy 3, from 0";
+            let remedy =
+                "the path of a vertex is `instance:vertex`, or `array#3:vertex` for copy 3, from 0";
             let text = self.text;
-            self.undefined.entry(name.start).or_insert_with(|| undefined(text, "vertex", name, remedy));
+            self.undefined
+                .entry(name.start)
+                .or_insert_with(|| undefined(text, "vertex", name, remedy));
         }
         found
     }

@@ -69,7 +69,9 @@ impl Placement<'_> {
             let defaults = &self.scope.defaults;
             let behind = defaults.partition_point(|default| first(default) <= row);
             match behind.checked_sub(1) {
-                Some(idx) => Some(ColorId::from_index(self.first_color + defaults[idx].color as usize)),
+                Some(idx) => {
+                    Some(ColorId::from_index(self.first_color + defaults[idx].color as usize))
+                }
                 None => self.outer_default,
             }
         })

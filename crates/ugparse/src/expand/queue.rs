@@ -15,7 +15,11 @@ impl Expander<'_, '_> {
         queues.wires.move_up_to(end.wires, &mut scene.wires, &mut origins.wires);
         queues.lights.move_up_to(end.lights, &mut scene.lights, &mut origins.lights);
         queues.cameras.move_up_to(end.cameras, &mut scene.cameras, &mut origins.cameras);
-        queues.passed_on.move_up_to(end.passed_on, &mut passed_on.statements, &mut origins.passed_on);
+        queues.passed_on.move_up_to(
+            end.passed_on,
+            &mut passed_on.statements,
+            &mut origins.passed_on,
+        );
     }
 }
 

@@ -39,14 +39,16 @@ impl Expander<'_, '_> {
     fn face(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (face, span) = (&scope.faces.rows[row], scope.faces.spans[row]);
-        let contours = self.contours(placement, face.contours.clone(), inherited.transform.mirrored);
+        let contours =
+            self.contours(placement, face.contours.clone(), inherited.transform.mirrored);
         let placed = Face { contours, ..face.clone() };
         // Collapsed by `-sz 0`, too small relative to its distance, or with one vertex by several paths.
         if degeneracy(&self.scene.contours, &self.scene.vertices, &placed).is_some() {
             self.scene.contours.truncate(placed.contours.start as usize);
             let text = self.text;
             self.degenerate.entry(span.start).or_insert_with(|| {
-                let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
+                let shown = face_name(text, span)
+                    .unwrap_or(Span { start: span.start, end: span.start + 1 });
                 let kind = if face.shape.is_round() { face.shape.keyword() } else { "face" };
                 Diagnostic::warning(shown, format!("{kind} has no area where it is placed"))
                     .label("omitted")
@@ -57,7 +59,9 @@ impl Expander<'_, '_> {
         let placed = Face {
             name: self.optional_name(scope, face.name, inherited),
             color: placement.color(face.color, row, |default| default.first_face),
-            shading: face.shading.map(|row| ShadingId::from_index(placement.first_shading + row.index())),
+            shading: face
+                .shading
+                .map(|row| ShadingId::from_index(placement.first_shading + row.index())),
             body: placement.bodies[face.body.index()],
             ..placed
         };
@@ -85,7 +89,12 @@ impl Expander<'_, '_> {
     }
 
     /// Copies contours; mirroring reverses their direction but keeps the first vertex.
-    fn contours(&mut self, placement: &Placement<'_>, rows: Range<u32>, reversed: bool) -> Range<u32> {
+    fn contours(
+        &mut self,
+        placement: &Placement<'_>,
+        rows: Range<u32>,
+        reversed: bool,
+    ) -> Range<u32> {
         self.scene.contours.push_all(rows.map(|row| {
             let corners = placement.corners(row);
             let len = corners.len();
@@ -108,7 +117,8 @@ impl Expander<'_, '_> {
             }
             LightKind::Local { position, radius, reference, beam } => {
                 let position = inherited.transform.point(position);
-                let reference = reference.map(|reference| inherited.transform.mean_length(reference));
+                let reference =
+                    reference.map(|reference| inherited.transform.mean_length(reference));
                 self.check_finite(span, position);
                 self.check_finite(span, DVec3::splat(reference.unwrap_or_default()));
                 let beam = match beam {

@@ -30,8 +30,9 @@ pub(super) fn camera_option<'a>(
         b"fl" => store(&mut camera.focal_length, number(input)),
         b"og" => store(&mut camera.projection, Ok((input, Projection::Orthographic))),
         b"ps" => store(&mut camera.projection, Ok((input, Projection::Perspective))),
-        _ => {
-            fail(blank(at)?.0, Reason::Expected("a camera option (-vc -ep -ud -cl -ph -og -ps -va -fs -fl)"))
-        }
+        _ => fail(
+            blank(at)?.0,
+            Reason::Expected("a camera option (-vc -ep -ud -cl -ph -og -ps -va -fs -fl)"),
+        ),
     }
 }

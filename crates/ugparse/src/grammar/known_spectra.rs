@@ -47,7 +47,8 @@ mod tests {
     #[test]
     fn all_are_complete_and_rise() {
         for (reflects, n_columns, n_rows) in [(true, 17, 124), (false, 2, 200)] {
-            let names: Vec<&str> = table(reflects).lines().next().unwrap().split(',').skip(1).collect();
+            let names: Vec<&str> =
+                table(reflects).lines().next().unwrap().split(',').skip(1).collect();
             assert_eq!(names.len(), n_columns);
             let Reason::Impossible(_, _, remedy) = unknown(reflects) else { panic!("a remedy") };
             assert!(remedy.ends_with(&names.join(", ")), "{remedy}");

@@ -20,8 +20,9 @@ use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::{Velocity, VelocityError};
 use ugscene::{
-    Beam, BodyId, Camera, Color, ColorId, ColorValue, Face, FaceShape, Light, LightKind, LightMotion, Mix,
-    NameId, Shading, ShadingId, SurfaceId, SurfaceNumber, SurfaceProperties, Tint, Vertex, VertexId, Wire,
+    Beam, BodyId, Camera, Color, ColorId, ColorValue, Face, FaceShape, Light, LightKind,
+    LightMotion, Mix, NameId, Shading, ShadingId, SurfaceId, SurfaceNumber, SurfaceProperties,
+    Tint, Vertex, VertexId, Wire,
 };
 
 use crate::numbered::Name;
@@ -31,8 +32,8 @@ use crate::statement::{
     Call, FileStatement, MotionReference, NameKind, Repeat, SkyStatement, StatedFrame, Statement,
 };
 use crate::token::{
-    FILE_NAME, Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, label_text,
-    mark, number, number32, point, require, wanted, word,
+    FILE_NAME, Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer,
+    label_text, mark, number, number32, point, require, wanted, word,
 };
 
 /// The syntax of each statement, as messages show it, in the order in which they list keywords.
@@ -217,7 +218,8 @@ impl<'t> Grammar<'t, '_> {
         let (mut rest, open) = opt(mark(b'(', "`(` and texture coordinates")).parse(rest)?;
         let mut uv = None;
         if open.is_some() {
-            let (behind, (u, v, ())) = require((number32, number32, mark(b')', "`)`")).parse(rest))?;
+            let (behind, (u, v, ())) =
+                require((number32, number32, mark(b')', "`)`")).parse(rest))?;
             (rest, uv) = (behind, Some([u, v]));
         }
         Ok((rest, Statement::Vertex(name, Vertex { normal, uv, ..Vertex::at(position, color) })))
@@ -242,7 +244,10 @@ impl<'t> Grammar<'t, '_> {
         let (input, shading) = self.shading(input)?;
         let (input, body) = self.body(input)?;
         let name = self.own_name(name);
-        Ok((input, Statement::Face(Face { name, color, shading, shape, ..Face::polygon(contours, body) })))
+        Ok((
+            input,
+            Statement::Face(Face { name, color, shading, shape, ..Face::polygon(contours, body) }),
+        ))
     }
 
     /// `number` or `surface`
@@ -251,7 +256,10 @@ impl<'t> Grammar<'t, '_> {
         if let Some(name) = surface {
             self.names.push((NameKind::Surface, name));
             let number = self.scope.surfaces.names.enter(name.of(self.text));
-            return Ok((rest, Some(self.scope.add_shading(Shading::Surface(SurfaceId::from_index(number))))));
+            return Ok((
+                rest,
+                Some(self.scope.add_shading(Shading::Surface(SurfaceId::from_index(number)))),
+            ));
         }
         let (rest, level) = opt(number).parse(input)?;
         Ok((rest, level.map(|level| self.scope.add_shading(Shading::Level(level)))))
@@ -277,7 +285,10 @@ impl<'t> Grammar<'t, '_> {
         self.scope.contours.end_contour();
         let (input, body) = self.body(input)?;
         let (name, text) = (self.own_name(name), Some(self.scope.add_name(text)));
-        Ok((input, Statement::Wire(Wire { name, contours: first..first + 1, color: None, body, text })))
+        Ok((
+            input,
+            Statement::Wire(Wire { name, contours: first..first + 1, color: None, body, text }),
+        ))
     }
 
     /// One or more `( vertex … )`.
@@ -307,9 +318,12 @@ impl<'t> Grammar<'t, '_> {
     fn color(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, value) = number_from(0.0, f64::INFINITY, "a lightness is 0 or more")(input)?;
-        let (input, (hue, saturation, translucency)) = (opt(number), opt(share), opt(share)).parse(input)?;
+        let (input, (hue, saturation, translucency)) =
+            (opt(number), opt(share), opt(share)).parse(input)?;
         let (input, factor) = match translucency {
-            Some(_) => opt(number_from(0.0, f64::INFINITY, "a factor is 0 or more")).parse(input)?,
+            Some(_) => {
+                opt(number_from(0.0, f64::INFINITY, "a factor is 0 or more")).parse(input)?
+            }
             None => (input, None),
         };
         // `c L` is grey, `c L H` is fully saturated.
@@ -339,8 +353,12 @@ impl<'t> Grammar<'t, '_> {
         let (input, name) = self.optional_name(input)?;
         let (input, kelvin) =
             number_from(f64::MIN_POSITIVE, f64::INFINITY, "a temperature is above 0")(input)?;
-        let (input, scale) = opt(number_from(0.0, f64::INFINITY, "a scale is 0 or more")).parse(input)?;
-        Ok((input, color(name, ColorValue::Blackbody { kelvin, scale: scale.unwrap_or(1.0) }, None)))
+        let (input, scale) =
+            opt(number_from(0.0, f64::INFINITY, "a scale is 0 or more")).parse(input)?;
+        Ok((
+            input,
+            color(name, ColorValue::Blackbody { kelvin, scale: scale.unwrap_or(1.0) }, None),
+        ))
     }
 
     /// `c_spd [ID] nm value …`, `c_refl [ID] nm value …`, or a known spectrum in place of samples
@@ -354,7 +372,10 @@ impl<'t> Grammar<'t, '_> {
                 let at = if second.is_some() { behind_first } else { input };
                 return fail(blank(at)?.0, known_spectra::unknown(reflects));
             };
-            return Ok((behind_second, color(name, self.scope.add_spectrum(reflects, &samples), None)));
+            return Ok((
+                behind_second,
+                color(name, self.scope.add_spectrum(reflects, &samples), None),
+            ));
         }
         let mut least = f64::MIN_POSITIVE;
         let nanometres = |input| {
@@ -379,7 +400,9 @@ impl<'t> Grammar<'t, '_> {
     fn surface(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
         let mut surface = SurfaceProperties::default();
-        for (idx, SurfaceNumber { of, range, rule }) in SurfaceProperties::NUMBERS.into_iter().enumerate() {
+        for (idx, SurfaceNumber { of, range, rule }) in
+            SurfaceProperties::NUMBERS.into_iter().enumerate()
+        {
             match number_from(*range.start(), *range.end(), rule)(input) {
                 Err(nom::Err::Error(_)) if idx >= SurfaceProperties::N_REQUIRED => break,
                 read => (input, *of(&mut surface)) = read?,
@@ -391,7 +414,8 @@ impl<'t> Grammar<'t, '_> {
     /// `l [ID] intensity [x y z [radius [reference]]] [color] [< x y z >]`
     fn light(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, intensity) = number_from(0.0, f64::INFINITY, "an intensity is 0 or more")(input)?;
+        let (input, intensity) =
+            number_from(0.0, f64::INFINITY, "an intensity is 0 or more")(input)?;
         let at = blank(input)?.0;
         let (mut input, vector) = opt(point).parse(input)?;
         let mut kind = vector.map_or(LightKind::Ambient, LightKind::Directional);
@@ -401,7 +425,8 @@ impl<'t> Grammar<'t, '_> {
         {
             let distance = "a reference distance is above 0";
             let reference;
-            (input, reference) = opt(number_from(f64::MIN_POSITIVE, f64::INFINITY, distance)).parse(rest)?;
+            (input, reference) =
+                opt(number_from(f64::MIN_POSITIVE, f64::INFINITY, distance)).parse(rest)?;
             kind = LightKind::Local { position, radius, reference, beam: Beam::Even };
         }
         if kind == LightKind::Directional(DVec3::ZERO) {
@@ -412,10 +437,14 @@ impl<'t> Grammar<'t, '_> {
         let (input, motion) = self.optional_motion(input)?;
         let motion = motion.map_or(LightMotion::WithWhatItLights, |motion| {
             // A lamp with a velocity of its own is at its position at time 0.
-            let at = if let LightKind::Local { position, .. } = kind { position } else { DVec3::ZERO };
+            let at =
+                if let LightKind::Local { position, .. } = kind { position } else { DVec3::ZERO };
             LightMotion::Body(self.scope.bodies.of_reference(self.text, motion, at))
         });
-        Ok((input, Statement::Light(Light { name: self.own_name(name), intensity, kind, color, motion })))
+        Ok((
+            input,
+            Statement::Light(Light { name: self.own_name(name), intensity, kind, color, motion }),
+        ))
     }
 
     /// `cam [ID] { -vc -ep -ud -cl -ph -og -ps -va -fs -fl } [< x y z >]`
@@ -428,10 +457,15 @@ impl<'t> Grammar<'t, '_> {
         let (input, motion) = self.optional_motion(input)?;
         let (velocity, carrier) = match motion {
             Some(MotionReference::Frame(frame)) => (Some(frame.velocity), None),
-            Some(MotionReference::Named(name)) => (None, Some(self.scope.bodies.named(self.text, name))),
+            Some(MotionReference::Named(name)) => {
+                (None, Some(self.scope.bodies.named(self.text, name)))
+            }
             None => (None, None),
         };
-        Ok((input, Statement::Camera(Camera { name: self.own_name(name), velocity, carrier, ..camera })))
+        Ok((
+            input,
+            Statement::Camera(Camera { name: self.own_name(name), velocity, carrier, ..camera }),
+        ))
     }
 
     /// `sky FILE [-ra x y z]`
@@ -477,11 +511,19 @@ fn share(input: Input<'_>) -> Parsed<'_, f64> {
 
 /// The vector in these words has no length.
 const fn zero_vector(words: usize) -> Reason {
-    Reason::Impossible(words, "the vector is zero", "give a vector with a direction, such as `0 0 1`")
+    Reason::Impossible(
+        words,
+        "the vector is zero",
+        "give a vector with a direction, such as `0 0 1`",
+    )
 }
 
 /// A file name, for messages `what`.
-pub(crate) fn file<'t>(text: &[u8], input: Input<'t>, what: &'static str) -> Parsed<'t, FileStatement> {
+pub(crate) fn file<'t>(
+    text: &[u8],
+    input: Input<'t>,
+    what: &'static str,
+) -> Parsed<'t, FileStatement> {
     let position = |rest: Input<'_>| (text.len() - rest.len()) as u32;
     let at = blank(input)?.0;
     let (rest, name) = wanted(file_name(input), what)?;

@@ -38,7 +38,8 @@ impl<'t> Grammar<'t, '_> {
             _ => curve.map(|kind| kind.word),
         };
         if path_word.is_some() && motion.path_word.is_some_and(|stated| Some(stated) != path_word) {
-            let reason = Reason::Impossible(1, "the motion has another path already", CurveKind::PATHS);
+            let reason =
+                Reason::Impossible(1, "the motion has another path already", CurveKind::PATHS);
             return fail(at, reason);
         }
         motion.path_word = path_word.or(motion.path_word);
@@ -61,9 +62,13 @@ impl<'t> Grammar<'t, '_> {
             b"acc" => return piece(input, 0.0, &mut motion.accelerations),
             b"path" => return store(&mut motion.path, self.path(input)),
             b"on" => {
-                let name = || self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
+                let name =
+                    || self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
                 let on = name().or_else(|_| self.motion_reference(input));
-                return store(&mut motion.on, on.or_else(|_| wanted(name(), "the name of a motion")));
+                return store(
+                    &mut motion.on,
+                    on.or_else(|_| wanted(name(), "the name of a motion")),
+                );
             }
             b"at" => (rest, motion.at) = require(point(input))?,
             b"spin" => return piece(input, f64::NEG_INFINITY, &mut motion.spins),
@@ -76,18 +81,23 @@ impl<'t> Grammar<'t, '_> {
     /// `FILE`, `(t x y z …)` or `< NAME >`, the path of another motion
     fn path(&self, input: Input<'t>) -> Parsed<'t, PathStatement> {
         if let Ok((rest, ())) = mark(b'<', "`<`")(input) {
-            let (rest, name) = require(wanted(self.name(rest), "the name of a motion with a path"))?;
+            let (rest, name) =
+                require(wanted(self.name(rest), "the name of a motion with a path"))?;
             return Ok((require(mark(b'>', "`>`")(rest))?.0, PathStatement::Of(name)));
         }
         let Ok((list, ())) = mark(b'(', "`(`")(input) else {
-            let (rest, file) = require(file(self.text, input, "a file name, or `(` and a list of events"))?;
+            let (rest, file) =
+                require(file(self.text, input, "a file name, or `(` and a list of events"))?;
             return Ok((rest, PathStatement::File(file)));
         };
         let (mut input, mut events) = (list, Vec::new());
         while let (rest, Some(t)) = opt(number).parse(input)? {
             if events.len() == SampledPath::MOST_EVENTS {
                 let remedy = "give 1000000 events at most";
-                return fail(blank(input)?.0, Reason::Impossible(1, "the path has too many events", remedy));
+                return fail(
+                    blank(input)?.0,
+                    Reason::Impossible(1, "the path has too many events", remedy),
+                );
             }
             let (rest, x) = require(point(rest))?;
             events.push(Event { t, x });
@@ -100,13 +110,21 @@ impl<'t> Grammar<'t, '_> {
 }
 
 /// `[-at x y z] [-turn x y z] [-shift t x y z]`
-pub(super) fn frame_options(mut input: Input<'_>, mut frame: StatedFrame) -> Parsed<'_, StatedFrame> {
+pub(super) fn frame_options(
+    mut input: Input<'_>,
+    mut frame: StatedFrame,
+) -> Parsed<'_, StatedFrame> {
     while let (rest, Some(word)) = opt(option_word).parse(input)? {
         match word {
             b"at" => input = store(&mut frame.at, point(rest))?.0,
             b"turn" => (input, frame.turn) = require(point(rest))?,
             b"shift" => (input, frame.shift) = shift(rest)?,
-            _ => return fail(blank(input)?.0, Reason::Expected("`>` or an option (-at -turn -shift)")),
+            _ => {
+                return fail(
+                    blank(input)?.0,
+                    Reason::Expected("`>` or an option (-at -turn -shift)"),
+                );
+            }
         }
     }
     Ok((input, frame))

@@ -20,7 +20,10 @@ impl<'t> Grammar<'t, '_> {
             let (rest, contours) = self.contours(input)?;
             let numbers = self.scope.contours.iter(contours.clone()).map(<[_]>::len);
             if !numbers.eq(shape.corners_of_contours().iter().copied()) {
-                return fail(at, Reason::Impossible(1, "this is not the number of vertices", CONTOURS));
+                return fail(
+                    at,
+                    Reason::Impossible(1, "this is not the number of vertices", CONTOURS),
+                );
             }
             return self.behind_shape(rest, name, shape, contours);
         }
@@ -33,8 +36,11 @@ impl<'t> Grammar<'t, '_> {
         let radius_at = blank(input)?.0;
         let radius = number_from(f64::MIN_POSITIVE, f64::INFINITY, "a radius is above 0");
         let (input, radius) = require(radius(input))?;
-        let axis =
-            if matches!(shape, FaceShape::Cylinder | FaceShape::Tube) { second - origin } else { second };
+        let axis = if matches!(shape, FaceShape::Cylinder | FaceShape::Tube) {
+            second - origin
+        } else {
+            second
+        };
         let direction = ugphysics::unit_or_zero(axis);
         if axis == DVec3::ZERO {
             return fail(end, if shape == FaceShape::Disc { zero_vector(3) } else { NO_LENGTH });

@@ -23,13 +23,15 @@ impl<'t> Grammar<'t, '_> {
                 b"step" => (input, is_stepped) = (rest, true),
                 b"period" => {
                     period_at = blank(rest)?.0;
-                    let positive = number_from(f64::MIN_POSITIVE, f64::INFINITY, "a period is above 0");
+                    let positive =
+                        number_from(f64::MIN_POSITIVE, f64::INFINITY, "a period is above 0");
                     let (rest, time) = require(positive(rest))?;
                     (input, period) = (rest, Some(time));
                 }
                 b"shift" => (input, shift) = require(number(rest))?,
                 _ => {
-                    let expected = "an own time or an option of a colour over time (-step -period -shift)";
+                    let expected =
+                        "an own time or an option of a colour over time (-step -period -shift)";
                     return fail(blank(input)?.0, Reason::Expected(expected));
                 }
             }
@@ -40,10 +42,14 @@ impl<'t> Grammar<'t, '_> {
             wanted(read.inspect(|(_, time)| least = time.next_up()), "an own time")
         };
         let (input, rows) = pairs(input, time, |input| wanted(self.color_name(input), NAME))?;
-        let span = rows.last().map_or(0.0, |last| last.0) - rows.first().map_or(0.0, |first| first.0);
+        let span =
+            rows.last().map_or(0.0, |last| last.0) - rows.first().map_or(0.0, |first| first.0);
         if period.is_some_and(|period| period <= span) {
             let remedy = "give a longer one: after it the first row follows the last";
-            return fail(period_at, Reason::Impossible(1, "the period is not longer than its rows", remedy));
+            return fail(
+                period_at,
+                Reason::Impossible(1, "the period is not longer than its rows", remedy),
+            );
         }
         Ok((input, Statement::Table(name, ColorTable { color, rows, is_stepped, period, shift })))
     }
@@ -53,7 +59,8 @@ impl<'t> Grammar<'t, '_> {
         let (input, color) = wanted(self.color_name(input), NAME)?;
         let (mut input, file) = require(file(self.text, input, "the file of a picture"))?;
         // The bytes of the picture are set when the colours of all scopes are joined.
-        let image = TextureImage { file: Some(file.name.lossy(self.text)), ..TextureImage::default() };
+        let image =
+            TextureImage { file: Some(file.name.lossy(self.text)), ..TextureImage::default() };
         let mut texture = Texture::new(color, image);
         while let (rest, Some(option)) = opt(option_word).parse(input)? {
             match option {
@@ -76,13 +83,16 @@ impl<'t> Grammar<'t, '_> {
                     (input, texture.alpha) = (rest, AlphaMode::Mask(cutoff.unwrap_or(0.5)));
                 }
                 b"image" => {
-                    let (rest, row) = require(wanted(integer(rest), "the number of a picture, from 0"))?;
+                    let (rest, row) =
+                        require(wanted(integer(rest), "the number of a picture, from 0"))?;
                     // No mesh has so many; those beyond are refused with the mesh.
-                    (input, texture.image.row) = (rest, Some(u32::try_from(row).unwrap_or(u32::MAX)));
+                    (input, texture.image.row) =
+                        (rest, Some(u32::try_from(row).unwrap_or(u32::MAX)));
                 }
                 b"blend" => (input, texture.alpha) = (rest, AlphaMode::Blend),
                 _ => {
-                    let expected = "`;` or an option of a picture (-image -wrap -factor -mask -blend)";
+                    let expected =
+                        "`;` or an option of a picture (-image -wrap -factor -mask -blend)";
                     return fail(blank(input)?.0, Reason::Expected(expected));
                 }
             }
@@ -102,7 +112,8 @@ impl<'t> Grammar<'t, '_> {
 fn wrap(input: Input<'_>) -> Parsed<'_, Wrap> {
     match word(input) {
         Ok((rest, name))
-            if let Some(wrap) = Wrap::ALL.into_iter().find(|wrap| wrap.name().as_bytes() == name) =>
+            if let Some(wrap) =
+                Wrap::ALL.into_iter().find(|wrap| wrap.name().as_bytes() == name) =>
         {
             Ok((rest, wrap))
         }

@@ -19,7 +19,10 @@ pub(super) fn transforms(mut input: Input<'_>) -> Parsed<'_, Transform> {
         input = rest;
     }
     if !total.is_finite() {
-        return fail(start, Reason::Impossible(1, "the transformation overflows", "use smaller numbers"));
+        return fail(
+            start,
+            Reason::Impossible(1, "the transformation overflows", "use smaller numbers"),
+        );
     }
     Ok((input, total))
 }
@@ -56,15 +59,20 @@ fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a,
             let factors = DVec3::select(axis.cmpeq(DVec3::ONE), DVec3::splat(factor), DVec3::ONE);
             Some(Transform::scale(factors))
         })?,
-        (b's', b'a', _) => with(number(input), |factor| Some(Transform::scale(DVec3::splat(factor))))?,
+        (b's', b'a', _) => {
+            with(number(input), |factor| Some(Transform::scale(DVec3::splat(factor))))?
+        }
         (b's', b'v', _) => along_vector(Transform::scale_along)?,
-        (b't', _, Some(axis)) => with(number(input), |amount| Some(Transform::translate(axis * amount)))?,
+        (b't', _, Some(axis)) => {
+            with(number(input), |amount| Some(Transform::translate(axis * amount)))?
+        }
         (b't', b'a', _) => with(point(input), |offset| Some(Transform::translate(offset)))?,
         (b't', b'v', _) => along_vector(Transform::translate_along)?,
         (b'r', _, Some(axis)) => with(number(input), |degrees| Transform::rotate(axis, degrees))?,
         (b'r', b'a', _) => with(numbers::<3>(input), |degrees| {
             let mut turns = DVec3::AXES.into_iter().zip(degrees);
-            let then = |sum: Transform, (axis, angle)| Some(sum.then(&Transform::rotate(axis, angle)?));
+            let then =
+                |sum: Transform, (axis, angle)| Some(sum.then(&Transform::rotate(axis, angle)?));
             turns.try_fold(Transform::IDENTITY, then)
         })?,
         (b'r', b'v', _) => along_vector(Transform::rotate)?,
@@ -74,7 +82,8 @@ fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a,
         (b'M', b'3', _) => with(numbers::<9>(input), |m| Some(Transform::rows3(&m)))?,
         (b'M', b'4', _) => {
             let (rest, m) = numbers::<16>(input)?;
-            return Transform::rows4(&m).map_or_else(|| fail(at, NOT_AFFINE), |map| Ok((rest, map)));
+            return Transform::rows4(&m)
+                .map_or_else(|| fail(at, NOT_AFFINE), |map| Ok((rest, map)));
         }
         _ => return fail(at, UNKNOWN),
     };

@@ -10,7 +10,12 @@ use crate::scope::Scope;
 use crate::statement::{Call, Repeat};
 
 /// Resolves the calls of a scope, and labels them.
-pub(super) fn link_calls(text: &[u8], scopes: &mut [Scope<'_>], row: usize, findings: &mut Vec<Diagnostic>) {
+pub(super) fn link_calls(
+    text: &[u8],
+    scopes: &mut [Scope<'_>],
+    row: usize,
+    findings: &mut Vec<Diagnostic>,
+) {
     let calls = &scopes[row].calls.rows;
     let labels = labels(text, calls);
     let target = |call: &Call| {
@@ -22,7 +27,8 @@ pub(super) fn link_calls(text: &[u8], scopes: &mut [Scope<'_>], row: usize, find
             // The order of the hash table is arbitrary.
             let mut names: Vec<&[u8]> = names.map(|(_, span)| span.of(text)).collect();
             names.sort_unstable();
-            let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
+            let found =
+                undefined_like(text, "definition", call.definition, remedy, names, findings.len());
             findings.push(found);
         }
         target.map(|&(scope, _)| scope)
@@ -44,6 +50,7 @@ fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
     // Labels in the text are never used for other calls.
     let mut taken: UniqueNames = wanted.iter().map(String::as_str).collect();
     let mut known = FxHashSet::default();
-    let again = wanted.iter().map(|label| if known.insert(label) { None } else { taken.fresh(label) });
+    let again =
+        wanted.iter().map(|label| if known.insert(label) { None } else { taken.fresh(label) });
     again.zip(&wanted).map(|(again, label)| again.unwrap_or_else(|| label.clone())).collect()
 }

@@ -23,11 +23,13 @@ pub(crate) fn remove_degenerate(
 ) -> Vec<Diagnostic> {
     let Scope { faces, wires, contours, .. } = &*scope;
     let is_whole = |rows: &Range<u32>| has_corners || is_linked(contours.corners(rows.clone()));
-    let problem =
-        |face: &Face| is_whole(&face.contours).then(|| degeneracy(contours, vertices, face)).flatten();
+    let problem = |face: &Face| {
+        is_whole(&face.contours).then(|| degeneracy(contours, vertices, face)).flatten()
+    };
     let is_short = |wire: &Wire| is_whole(&wire.contours) && is_short(contours, wire);
     let rows = |n: usize| (0..n).into_par_iter().with_min_len(LEAST_ROWS);
-    let flat: Vec<usize> = rows(faces.len()).filter(|&row| problem(&faces.rows[row]).is_some()).collect();
+    let flat: Vec<usize> =
+        rows(faces.len()).filter(|&row| problem(&faces.rows[row]).is_some()).collect();
     let short: Vec<usize> = rows(wires.len()).filter(|&row| is_short(&wires.rows[row])).collect();
     let of_face = |&row: &usize| {
         let problem = problem(&faces.rows[row]).unwrap_or_default();
@@ -41,7 +43,11 @@ pub(crate) fn remove_degenerate(
 }
 
 /// Why a face is degenerate, if it is.
-pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+pub(crate) fn degeneracy(
+    contours: &Contours,
+    vertices: &[Vertex],
+    face: &Face,
+) -> Option<&'static str> {
     if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
     }
@@ -69,7 +75,13 @@ pub(crate) fn is_short(contours: &Contours, wire: &Wire) -> bool {
 
 /// The warning for a degenerate wire.
 pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
-    omitted(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
+    omitted(
+        text,
+        span,
+        "wire",
+        "has a contour of fewer than 2 vertices",
+        "remove it, or add a vertex",
+    )
 }
 
 fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {

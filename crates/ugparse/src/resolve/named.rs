@@ -1,7 +1,9 @@
 //! Moves colours and surfaces from the scopes to the scene, and resolves their names.
 
 use rayon::prelude::*;
-use ugscene::{Color, ColorId, ColorTable, Mix, NameId, Names, Scene, Shading, SurfaceId, SurfaceProperties};
+use ugscene::{
+    Color, ColorId, ColorTable, Mix, NameId, Names, Scene, Shading, SurfaceId, SurfaceProperties,
+};
 
 use super::corners::LEAST_ROWS;
 use super::enclosing;
@@ -48,7 +50,8 @@ pub(super) fn gather_named(
         let first_sample = scene.samples.len();
         scene.samples.append(&mut scope.samples);
         let colors = std::mem::take(&mut scope.colors.table.rows).into_iter();
-        for ((color, &span), own) in colors.zip(&scope.colors.table.spans).zip(&scope.colors.spans) {
+        for ((color, &span), own) in colors.zip(&scope.colors.table.spans).zip(&scope.colors.spans)
+        {
             let own = match own {
                 Some(own) => own.lossy(text),
                 None => format!("unnamed#{}", scene.colors.len()),
@@ -94,7 +97,8 @@ pub(super) fn visible<'g, T: 'g>(
     firsts: &[usize],
 ) -> Vec<Option<usize>> {
     let find = |name: &&[u8]| {
-        enclosing(scopes, row).find_map(|scope| Some(firsts[scope] + kind(&scopes[scope]).row(name)?))
+        enclosing(scopes, row)
+            .find_map(|scope| Some(firsts[scope] + kind(&scopes[scope]).row(name)?))
     };
     kind(&scopes[row]).names.list.iter().map(find).collect()
 }
@@ -107,7 +111,8 @@ pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     if colors.iter().enumerate().all(|(row, color)| *color == Some(row)) {
         return true;
     }
-    let rows: Vec<_> = colors.iter().map(|row| ColorId::from_index(row.unwrap_or(UNDEFINED))).collect();
+    let rows: Vec<_> =
+        colors.iter().map(|row| ColorId::from_index(row.unwrap_or(UNDEFINED))).collect();
     let paint = |color: &mut ColorId| *color = rows[color.index()];
     let vertices = scope.vertices.rows.par_iter_mut().with_min_len(LEAST_ROWS);
     vertices.for_each(|vertex| vertex.color.iter_mut().for_each(paint));

@@ -188,7 +188,8 @@ impl Scope<'_> {
             Some(PathStatement::Events { events, .. }) => events.len(),
             _ => 0,
         };
-        let paths = self.motions.rows.iter().map(n_events).sum::<usize>() * SampledPath::BYTES_PER_EVENT;
+        let paths =
+            self.motions.rows.iter().map(n_events).sum::<usize>() * SampledPath::BYTES_PER_EVENT;
         let bytes = (self.table_bytes() + paths) as u64;
         Size { statements: self.n_statements, corners, names, name_bytes, bytes, ..Size::default() }
     }

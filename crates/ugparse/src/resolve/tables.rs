@@ -9,7 +9,12 @@ use crate::source::Span;
 use crate::statement::NameKind;
 
 /// Reports colours that change where none may change; gives the others their colour at own time 0.
-pub(super) fn check(text: &[u8], scopes: &[Scope<'_>], scene: &mut Scene, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(
+    text: &[u8],
+    scopes: &[Scope<'_>],
+    scene: &mut Scene,
+    findings: &mut Vec<Diagnostic>,
+) {
     if scene.color_tables.is_empty() {
         return;
     }
@@ -67,7 +72,8 @@ impl Check<'_> {
                 continue;
             }
             if !matches!(light.kind, LightKind::Local { .. }) {
-                let help = "give the light a place, by four numbers after the intensity: x y z radius";
+                let help =
+                    "give the light a place, by four numbers after the intensity: x y z radius";
                 self.refuse_in(span, "is the colour of a light without a place", help);
             } else if light.motion == LightMotion::WithWhatItLights {
                 let help = "give the light a motion, `<0 0 0>` if it rests in the scene; its own time is \
@@ -81,7 +87,8 @@ impl Check<'_> {
         let Some(table) = self.scene.table_of(table.color) else { return };
         let translucency = |color: ColorId| self.scene.colors[color.index()].translucency;
         let first = table.rows.first().map_or(0.0, |row| translucency(row.1));
-        let wrong = |&(_, color): &(f64, ColorId)| self.is_timed(color) || translucency(color) != first;
+        let wrong =
+            |&(_, color): &(f64, ColorId)| self.is_timed(color) || translucency(color) != first;
         let Some(row) = table.rows.iter().position(wrong) else { return };
         let nested = self.is_timed(table.rows[row].1);
         // Its own name is the first.
@@ -89,8 +96,10 @@ impl Check<'_> {
         if nested {
             self.refuse(name, "is in a table of times", "write its rows there");
         } else if self.findings.len() < MAX_ERRORS {
-            let message =
-                format!("colour `{}` has another translucency than the first row", name.lossy(self.text));
+            let message = format!(
+                "colour `{}` has another translucency than the first row",
+                name.lossy(self.text)
+            );
             let help = "give all colours of a table the same translucency";
             self.findings.push(Diagnostic::here(name, message, help));
         }
@@ -98,13 +107,15 @@ impl Check<'_> {
 
     /// Reports the colour of the vertex or light in a statement.
     fn refuse_in(&mut self, span: Span, what: &str, help: &str) {
-        let color = names_in(self.text, span).into_iter().find(|(kind, _)| *kind == NameKind::Color);
+        let color =
+            names_in(self.text, span).into_iter().find(|(kind, _)| *kind == NameKind::Color);
         self.refuse(color.map_or(span, |(_, name)| name), what, help);
     }
 
     fn refuse(&mut self, name: Span, what: &str, help: &str) {
         if self.findings.len() < MAX_ERRORS {
-            let message = format!("colour `{}` changes with time and {what}", name.lossy(self.text));
+            let message =
+                format!("colour `{}` changes with time and {what}", name.lossy(self.text));
             self.findings.push(Diagnostic::here(name, message, help));
         }
     }

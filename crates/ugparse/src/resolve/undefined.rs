@@ -35,12 +35,17 @@ impl UndefinedNames<'_, '_, '_> {
         let (kind, remedy) = match kind {
             NameKind::Color if !is_color() => {
                 names = Box::new(around().flat_map(|scope| scope.colors.spans.iter().flatten()));
-                let remedy = "there is a surface of that name; on a face it follows the colour, so add one";
-                ("colour", if is_surface() { remedy } else { "define it with a `c` or `c_rgb` statement" })
+                let remedy =
+                    "there is a surface of that name; on a face it follows the colour, so add one";
+                (
+                    "colour",
+                    if is_surface() { remedy } else { "define it with a `c` or `c_rgb` statement" },
+                )
             }
             NameKind::Surface if !is_surface() => {
                 names = Box::new(around().flat_map(|scope| scope.surfaces.spans.iter().flatten()));
-                let remedy = "there is a colour of that name; a face has one colour, followed by a surface";
+                let remedy =
+                    "there is a colour of that name; a face has one colour, followed by a surface";
                 ("surface", if is_color() { remedy } else { "define it with a `surf` statement" })
             }
             NameKind::Vertex if !scope.has_vertex(own) && !scope.may_be_path(own) => {
@@ -80,7 +85,9 @@ pub(crate) fn undefined_like<'n>(
 ) -> Diagnostic {
     let guess = if n_before < MAX_ERRORS { nearest(name.of(text), names) } else { None };
     match guess {
-        Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
+        Some(guess) => {
+            undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}"))
+        }
         None => undefined(text, kind, name, remedy),
     }
 }

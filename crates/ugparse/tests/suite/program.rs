@@ -85,7 +85,10 @@ fn check_can_print_json() {
     let good = json!({ "usable": true, "findings": [], "omitted": 0 });
     assert_eq!(report("--format json", "v a 0 0 0;"), good);
     let poor = report("-format=json", POOR);
-    assert_eq!((&poor["findings"][0]["severity"], &poor["usable"]), (&json!("warning"), &json!(true)));
+    assert_eq!(
+        (&poor["findings"][0]["severity"], &poor["usable"]),
+        (&json!("warning"), &json!(true))
+    );
 }
 
 #[test]
@@ -129,7 +132,8 @@ fn scene_with_program(script: &str) -> tempfile::TempDir {
 fn programs_of_a_scene_are_run_only_if_allowed() {
     let check = |script: &str, options: &str, status: i32, expected: &str| {
         let folder = scene_with_program(script);
-        let out = UGPARSE.in_folder(&folder).run(&format!("{options} flatten sky.ug"), "never read");
+        let out =
+            UGPARSE.in_folder(&folder).run(&format!("{options} flatten sky.ug"), "never read");
         let printed = String::from_utf8_lossy(if status == 0 { &out.stdout } else { &out.stderr });
         assert_eq!(out.status.code(), Some(status), "{script}: {printed}");
         assert!(printed.starts_with(expected), "{script}: {printed}");
@@ -137,17 +141,26 @@ fn programs_of_a_scene_are_run_only_if_allowed() {
     };
     let run = "-allow-execute";
     check("echo 'v a 1 2 3;'", run, 0, "{ sky }\nv a 1 2 3;\n");
-    check("echo 'v a 1 2 3;'", "", 1, "ugparse: error: program `stars` is not run\n --> sky.ug:2:9");
+    check(
+        "echo 'v a 1 2 3;'",
+        "",
+        1,
+        "ugparse: error: program `stars` is not run\n --> sky.ug:2:9",
+    );
     // It gets no arguments and no input, and runs in the current folder.
     check("echo \"{ $# $(cat) }\"; test -f sky.ug || exit 1", run, 0, "{ sky }\n{ 0  }\n");
-    let failed = "ugparse: error: program `stars` failed with exit status: 3: no fuel\n --> sky.ug:2:9";
+    let failed =
+        "ugparse: error: program `stars` failed with exit status: 3: no fuel\n --> sky.ug:2:9";
     check("echo no fuel >&2; exit 3", run, 1, failed);
     check("echo 'v a 0;'", run, 1, "ugparse: error: expected a number, found `;`\n --> stars:1:6");
     let endless = "while :; do echo '{}'; done";
     let limited = "-allow-execute -limit text=1000";
     check(endless, limited, 1, "ugparse: error: with the text of `stars`");
     let said = check("echo 'some are faint' >&2", run, 0, "{ sky }\n");
-    assert!(said.starts_with("ugparse: note: ") && said.ends_with("stars says: some are faint\n"), "{said}");
+    assert!(
+        said.starts_with("ugparse: note: ") && said.ends_with("stars says: some are faint\n"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -176,10 +189,14 @@ fn inputs_that_are_not_scenes_have_one_error() {
         let out = ugparse.run(&format!("tidy -qt {name}"), "");
         let shown = messages(&out).replace(name, "FILE");
         let title = format!("ugparse: error: this is not a UniGrafix scene but {what}\n");
-        assert!(shown.starts_with(&title) && shown.ends_with(&format!("help: {help}\n")), "{shown}");
+        assert!(
+            shown.starts_with(&title) && shown.ends_with(&format!("help: {help}\n")),
+            "{shown}"
+        );
         assert_eq!((shown.matches("error").count(), out.status.code()), (1, Some(1)), "{shown}");
     };
-    let wide: Vec<u8> = format!("\u{feff}{BAD}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let wide: Vec<u8> =
+        format!("\u{feff}{BAD}").encode_utf16().flat_map(u16::to_le_bytes).collect();
     check("scene.ug", &wide, "UTF-16 text", "save it as UTF-8 or ASCII");
     check("scene.ug.gz", b"\x1f\x8b\x08\0\0\0\0\0", "compressed data", "decompress it first");
     check(
@@ -205,7 +222,12 @@ fn carriage_returns_end_line_marks() {
     let (first, rest) = ("v a 0 0 0;", "v b 1 0 0;v c 0 1 0;f (a b c);f (a b d);");
     for ends in ["\n", "\r\n", "\r"] {
         let scene = format!("{first}{ends}# 7 \"house.ug\"{ends}{rest}{ends}");
-        UGPARSE.refuses("-qt", scene, 1, "ugparse: error: vertex `d` is not defined\n --> house.ug:7:");
+        UGPARSE.refuses(
+            "-qt",
+            scene,
+            1,
+            "ugparse: error: vertex `d` is not defined\n --> house.ug:7:",
+        );
     }
 }
 
@@ -229,7 +251,9 @@ fn wrong_usage_has_status_2() {
 #[test]
 fn options_may_precede_or_follow_the_command() {
     let unknown = "shine 1;\n";
-    for args in ["tidy -lax -qt", "-lax -qt tidy", "-lax tidy -qt -", "-nt 1 -lax -qt flatten -fi -"] {
+    for args in
+        ["tidy -lax -qt", "-lax -qt tidy", "-lax tidy -qt -", "-nt 1 -lax -qt flatten -fi -"]
+    {
         let out = UGPARSE.run(args, unknown);
         assert_eq!((&out.stdout[..], &out.stderr[..]), (unknown.as_bytes(), &b""[..]), "{args}");
     }
@@ -273,8 +297,13 @@ fn tidy_keeps_scenes_and_is_idempotent() {
         assert_eq!(UGPARSE.text("tidy", &tidy), tidy, "{}", path.display());
         assert_eq!(tidy.matches('{').count(), String::from_utf8_lossy(&text).matches('{').count());
         for keyword in ["def", "i", "a"] {
-            let count = |text: &str| text.split_whitespace().filter(|word| *word == keyword).count();
-            assert!(count(&tidy) >= count(&String::from_utf8_lossy(&text)), "{}: {keyword}", path.display());
+            let count =
+                |text: &str| text.split_whitespace().filter(|word| *word == keyword).count();
+            assert!(
+                count(&tidy) >= count(&String::from_utf8_lossy(&text)),
+                "{}: {keyword}",
+                path.display()
+            );
         }
     }
 }
@@ -353,18 +382,22 @@ fn count_finds_turned_faces() {
     #[track_caller]
     fn check(top: &str, [opposite, same, border, more]: [u32; 4], turned: Value) {
         let counts = report("count -format json", &cube(top));
-        let expected = json!({ "opposite": opposite, "same": same, "border": border, "more_than_two": more });
+        let expected =
+            json!({ "opposite": opposite, "same": same, "border": border, "more_than_two": more });
         assert_eq!(counts["edges"], expected, "{top}");
         assert_eq!(counts["turned"], turned, "{top}");
     }
-    let at_line_14 =
-        |edges: u32| json!({ "edges": edges, "face": { "name": "top", "file": "<stdin>", "line": 14 } });
+    let at_line_14 = |edges: u32| json!({ "edges": edges, "face": { "name": "top", "file": "<stdin>", "line": 14 } });
     check("f top (p4 p5 p7 p6);", [12, 0, 0, 0], Value::Null);
     check("f top (p6 p7 p5 p4);", [8, 4, 0, 0], at_line_14(4));
     check("\n", [8, 0, 4, 0], Value::Null);
     check("f top (p4 p5 p7 p6); f top (p4 p5 p7 p6);", [8, 0, 0, 4], Value::Null);
     // Other vertices at the same positions.
-    check("v a -1 -1 1; v b 1 -1 1; v c 1 1 1; v d -1 1 1;\nf top (a b c d);", [12, 0, 0, 0], Value::Null);
+    check(
+        "v a -1 -1 1; v b 1 -1 1; v c 1 1 1; v d -1 1 1;\nf top (a b c d);",
+        [12, 0, 0, 0],
+        Value::Null,
+    );
     // A hole has edges, in either direction.
     let hole = "v a -.5 -.5 1; v b .5 -.5 1; v c .5 .5 1; v d -.5 .5 1; f lid (a b c d);";
     check(&format!("{hole} f top (p4 p5 p7 p6) (a b c d);"), [16, 0, 0, 0], Value::Null);
@@ -395,14 +428,18 @@ fn count_counts_and_measures() {
     let body = |velocity: Value, faces: u32, wires: u32| json!({ "velocity": velocity, "faces": faces, "wires": wires });
     let bodies = counts["bodies"].as_array().unwrap();
     assert_eq!(bodies.len(), 3, "{bodies:?}");
-    for expected in
-        [body(Value::Null, 1, 1), body(json!([0.5, 0.0, 0.0]), 3, 0), body(json!([0.0, 0.25, 0.0]), 1, 0)]
-    {
+    for expected in [
+        body(Value::Null, 1, 1),
+        body(json!([0.5, 0.0, 0.0]), 3, 0),
+        body(json!([0.0, 0.25, 0.0]), 1, 0),
+    ] {
         assert!(bodies.contains(&expected), "{bodies:?}");
     }
 
     let table = UGPARSE.text("count", text);
-    for row in ["vertices 8 20", "arrays 1 -", "least flat face 5.0e-2 of its size: `bent`, <stdin>:5"] {
+    for row in
+        ["vertices 8 20", "arrays 1 -", "least flat face 5.0e-2 of its size: `bent`, <stdin>:5"]
+    {
         let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(table.lines().any(|line| words(line) == row), "{row}\n{table}");
     }

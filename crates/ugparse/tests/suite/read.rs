@@ -56,7 +56,10 @@ fn meshes_are_included() {
     let error = ugparse::include(source, &options, |_| Ok(b"v 0 0 0\nf 1 2 secret\n".to_vec()))
         .unwrap_err()
         .to_string();
-    assert!(error.contains("file `a.obj` is not UniGrafix") && !error.contains("secret"), "{error}");
+    assert!(
+        error.contains("file `a.obj` is not UniGrafix") && !error.contains("secret"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -98,7 +101,11 @@ fn square(d: f64, rest: &str) -> String {
 fn bent_faces_become_triangles() {
     let check = |d: f64, n_faces: usize, n_warnings: usize| {
         let parsed = read_text(&square(d, "f (a b c e);"));
-        assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (n_faces, n_warnings), "{d}");
+        assert_eq!(
+            (parsed.scene.faces.len(), parsed.warnings.list.len()),
+            (n_faces, n_warnings),
+            "{d}"
+        );
         assert!(parsed.scene.faces.iter().all(|face| parsed.origins.face(face).is_some()));
     };
     // Its size is the root of 2, almost.
@@ -117,7 +124,10 @@ fn triangles_keep_what_the_face_has() {
     let out = String::from_utf8(ugparse::write_with(&parsed.scene, &parsed.passed_on)).unwrap();
     let lines: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("{ first")).collect();
     let [first, f, bent, one, two, last, g] = lines[..] else { panic!("{out}") };
-    assert_eq!([first, f, bent, last, g], ["{ first }", "f (a b c);", "{ bent }", "{ last }", "f (a c e);"]);
+    assert_eq!(
+        [first, f, bent, last, g],
+        ["{ first }", "f (a b c);", "{ bent }", "{ last }", "f (a c e);"]
+    );
     assert!(one.starts_with("f x (") && one.ends_with(") red s <0.5 0 0>;"), "{out}");
     assert!(two.starts_with("f x (") && two.ends_with(") red s <0.5 0 0>; { behind }"), "{out}");
     assert_eq!(one.len() + 11, two.len());
@@ -139,6 +149,10 @@ fn recorded_texts_have_a_history() {
     let mut scene = Scene::default();
     scene.head.comments.push(" A licence: free for all ".to_string());
     assert!(!ugparse::has_history(&ugparse::write(&scene)) && !ugparse::has_history(b"{"));
-    scene.head.record(Provenance { program: "ugdoppler", version: "0.1.0", command: Some("ugdoppler") });
+    scene.head.record(Provenance {
+        program: "ugdoppler",
+        version: "0.1.0",
+        command: Some("ugdoppler"),
+    });
     assert!(ugparse::has_history(&ugparse::write(&scene)));
 }

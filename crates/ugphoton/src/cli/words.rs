@@ -16,7 +16,9 @@ impl Words for Error {
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
             Self::Sky(error) => return error.words(),
-            Self::OutOfRange { .. } => "{}: use smaller coordinates, a smaller time (-ti) or a lower speed",
+            Self::OutOfRange { .. } => {
+                "{}: use smaller coordinates, a smaller time (-ti) or a lower speed"
+            }
             Self::NoWavelengths => "{}: give -sp, and -dt exr or a file that ends in .exr",
             Self::SkyWavelengths => "{}: leave out -sky and --stage, and `sky` in the scene",
             Self::AnnotatedPart => "{}: leave out -cap, -lg, -dl and -gr, or -crop",

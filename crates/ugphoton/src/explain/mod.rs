@@ -12,7 +12,8 @@ use ugparse::{Diagnostics, Source};
 use ugphysics::Velocity;
 use ugpicture::SurfacePoint;
 use ugpicture::explain::{
-    ExplainedEvent, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor, SampleContent,
+    ExplainedEvent, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor,
+    SampleContent,
 };
 use ugscene::HueScale;
 use ugskybox::SkyError;
@@ -112,10 +113,13 @@ pub fn explain(
     let scenery = Scenery::new(Cow::Owned(as_seen(parsed.scene.clone(), config)?), config)?;
     let scene = &scenery.scene;
     let is_changed = scenery.shift != ColorShift::NONE;
-    let colors = is_changed.then(|| scenery.shift.seen_colors(HueScale::Degrees, scenery.has_lights()));
+    let colors =
+        is_changed.then(|| scenery.shift.seen_colors(HueScale::Degrees, scenery.has_lights()));
     let explainer = Explainer { scene, parsed: &parsed, source, picture: &config.picture, colors };
-    let teller = Teller { scenery: &scenery, explainer: &explainer, light_names: light_names(scene) };
-    let samples: Vec<_> = pixels::explained(&scenery, config, pixel).into_iter().map(content).collect();
+    let teller =
+        Teller { scenery: &scenery, explainer: &explainer, light_names: light_names(scene) };
+    let samples: Vec<_> =
+        pixels::explained(&scenery, config, pixel).into_iter().map(content).collect();
     let steps = pixel_steps(&scenery, config, pixel);
     Ok((explainer.explain(pixel, &samples, |sample| teller.shown(sample), steps), parsed.warnings))
 }
@@ -218,7 +222,8 @@ impl Teller<'_> {
         let row = light.irradiance.lamp as usize;
         let shift = self.scenery.appearance.hue_shift;
         ExplainedLamp {
-            light: self.light_names[lamps[row].color_of.map_or(row, |light| light as usize)].clone(),
+            light: self.light_names[lamps[row].color_of.map_or(row, |light| light as usize)]
+                .clone(),
             level: (light.irradiance.level * shift.color_of(&lamps[row])).to_array(),
             doppler: light.irradiance.doppler,
             distance: light.distance.filter(|distance| distance.is_finite()),
@@ -242,7 +247,8 @@ impl Teller<'_> {
     /// False for surfaces that emit their light.
     fn is_lit(&self, point: &SurfacePoint) -> bool {
         let Scenery { scene, appearance, .. } = self.scenery;
-        appearance.is_lit(&point.color) && scene.light_level(&scene.faces[point.face as usize]).is_none()
+        appearance.is_lit(&point.color)
+            && scene.light_level(&scene.faces[point.face as usize]).is_none()
     }
 
     /// The level of light on a surface, red, green and blue.

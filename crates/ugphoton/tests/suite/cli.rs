@@ -28,13 +28,17 @@ fn a_picture_says_how_it_was_made() {
 /// Viewers of 360° pictures are told of whole panoramas and their parts, and of no other picture.
 #[test]
 fn only_panoramas_are_stated_for_viewers() {
-    let area = |options: &str| ugimage::read_png_header(&UGPHOTON.output(options, SCENE)).unwrap().1.panorama;
+    let area = |options: &str| {
+        ugimage::read_png_header(&UGPHOTON.output(options, SCENE)).unwrap().1.panorama
+    };
     let part = |corner| Some(PanoramaArea { whole: [40, 20], corner });
     assert_eq!(area("-pan -sz 40 20"), part([0, 0]));
     assert_eq!(area("-pan -sz 40 20 -dt png16"), part([0, 0]));
     assert_eq!(area("-pan -sz 40 20 -ex 0 -crop 8 4 10 6"), part([8, 4]));
     // Degrees that are not square, two eyes, rows with text, other lenses.
-    for options in ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 80 40 -cap A", "-sz 40 20"] {
+    for options in
+        ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 80 40 -cap A", "-sz 40 20"]
+    {
         assert_eq!(area(options), None, "{options}");
     }
     for options in ["-fish 180 -sz 40 20", "-cube -sz 60 10", "-stereo .1 -sz 40 20"] {
@@ -52,8 +56,7 @@ fn cells_are_accepted_without_effect() {
     for cells in ["-1", "0", "20"] {
         UGPHOTON.same("-sz 20 10", &format!("-cn {cells} -sz 20 10"), SCENE);
     }
-    let message =
-        "ugphoton: error: `few` is not valid for `-cn`: must be a whole number\ntry `ugphoton -h`\n";
+    let message = "ugphoton: error: `few` is not valid for `-cn`: must be a whole number\ntry `ugphoton -h`\n";
     UGPHOTON.refuses("-cn few", SCENE, 2, message);
 }
 
@@ -85,7 +88,8 @@ fn mistakes_have_answers() {
         UGPHOTON.refuses(args, SCENE, 2, expected);
     }
     let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
-    let glowing = "c_bb hot 3000 1; v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c) hot <.5 0 0>; cam -ep 0 0 0;";
+    let glowing =
+        "c_bb hot 3000 1; v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c) hot <.5 0 0>; cam -ep 0 0 0;";
     for (args, scene, expected) in [
         ("-og", SCENE, "leave out -og"),
         ("", "v a 0 0 0;", "no faces"),
@@ -120,7 +124,8 @@ fn wrong_skies_are_refused() {
         path.to_str().unwrap().to_owned()
     };
     let png = |size: [u32; 2]| {
-        let frame = ugimage::Frame::new(size, true, vec![[9, 9, 9, 255]; (size[0] * size[1]) as usize]);
+        let frame =
+            ugimage::Frame::new(size, true, vec![[9, 9, 9, 255]; (size[0] * size[1]) as usize]);
         ugimage::Format::Png.encode(&frame, &ugimage::Metadata::default())
     };
     let square = file("square.png", &png([64, 64]));
@@ -131,7 +136,10 @@ fn wrong_skies_are_refused() {
     let good = file("good.png", &png([64, 32]));
     let missing = folder.path().join("missing.png");
     for (sky, expected) in [
-        (square, "64 x 64 pixels are not the shape of a panorama, which is twice as wide as high; a sky is"),
+        (
+            square,
+            "64 x 64 pixels are not the shape of a panorama, which is twice as wide as high; a sky is",
+        ),
         (tiny, "the panorama has too few pixels"),
         (text, "text.png`: "),
         (huge, "huge.hdr`: "),

@@ -78,7 +78,10 @@ fn the_last_step_is_the_picture() {
             }
         }
     }
-    assert!(seen.iter().all(|&count| count > 4), "background, seen, mirrored, behind and in glass: {seen:?}");
+    assert!(
+        seen.iter().all(|&count| count > 4),
+        "background, seen, mirrored, behind and in glass: {seen:?}"
+    );
 }
 
 /// The light of a sample is the sum over its surfaces.
@@ -101,7 +104,8 @@ fn check_light(sample: &Value, is_spectral: bool) {
 /// glass. `by`: the surface that mirrored or refracted the light. `is_elsewhere`: the light arrived
 /// at another event than the origin.
 fn check_surface(surface: &Value, by: Option<&Value>, is_elsewhere: bool) {
-    let event = |surface: &Value| (number(&surface["emission"]["t"]), point(&surface["emission"]["x"]));
+    let event =
+        |surface: &Value| (number(&surface["emission"]["t"]), point(&surface["emission"]["x"]));
     let (t, x) = event(surface);
     let (to_t, to_x) = by.map_or((0.0, DVec3::ZERO), event);
     let (dt, dx) = (to_t - t, to_x - x);
@@ -144,7 +148,8 @@ fn check_surface(surface: &Value, by: Option<&Value>, is_elsewhere: bool) {
 
 #[test]
 fn people_are_told_the_same() {
-    let told = |place: &str| String::from_utf8(written(&format!("-sz 60 44 --explain {place}"))).unwrap();
+    let told =
+        |place: &str| String::from_utf8(written(&format!("-sz 60 44 --explain {place}"))).unwrap();
     let mirror = told("18,22");
     for part in [
         "surface 1, seen directly",
@@ -160,9 +165,11 @@ fn people_are_told_the_same() {
         assert!(mirror.contains(part), "{part}:\n{mirror}");
     }
     let glass = told("29,22");
-    for part in
-        ["transmits     0.8 of the light", "in `glass`, index 1.5, velocity 0.4 0 0 (P35)", "face `wall`"]
-    {
+    for part in [
+        "transmits     0.8 of the light",
+        "in `glass`, index 1.5, velocity 0.4 0 0 (P35)",
+        "face `wall`",
+    ] {
         assert!(glass.contains(part), "{part}:\n{glass}");
     }
     assert!(told("0,30").contains("in shadow (P24)"));

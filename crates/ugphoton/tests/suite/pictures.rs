@@ -4,8 +4,8 @@ use glam::DVec3;
 use rayon::ThreadPoolBuilder;
 use ugimage::{Format, LinearFrame, Samples};
 use ugphoton::{
-    Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, Note, Output, PictureOptions,
-    RayOptions, Shutter, light, render,
+    Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, Note, Output,
+    PictureOptions, RayOptions, Shutter, light, render,
 };
 use ugphysics::{Hsv, Velocity, WaveVector};
 use ugpipe::Words;
@@ -27,7 +27,10 @@ const ROOM: &str = "
     cam -ep 0 0 0.5 -vc 0 6 0.3 -va 60;";
 
 fn picture(size: [u32; 2]) -> Config {
-    Config { picture: PictureOptions { size, samples: 2, ..PictureOptions::default() }, ..Config::default() }
+    Config {
+        picture: PictureOptions { size, samples: 2, ..PictureOptions::default() },
+        ..Config::default()
+    }
 }
 
 #[test]
@@ -46,20 +49,27 @@ fn parts_are_those_of_the_whole_picture() {
         config.picture.samples = if adaptive.is_some() { 4 } else { 2 };
         (config.picture.output, config.picture.channels) =
             (Output::Color(Format::Exr), Channel::NAMES.map(|(_, channel)| channel).to_vec());
-        let planes =
-            |frame: &LinearFrame| ["D", "time", "Z", "id", "velocity.X"].map(|name| channel(frame, name));
+        let planes = |frame: &LinearFrame| {
+            ["D", "time", "Z", "id", "velocity.X"].map(|name| channel(frame, name))
+        };
         let whole = light(scene(ROOM), &config).unwrap();
         let (mut joined, whole_planes) = (vec![None; 50 * 37], planes(&whole));
-        for [left, top, width, height] in [[0, 0, 23, 19], [23, 0, 27, 19], [0, 19, 50, 1], [0, 20, 50, 17]] {
+        for [left, top, width, height] in
+            [[0, 0, 23, 19], [23, 0, 27, 19], [0, 19, 50, 1], [0, 20, 50, 17]]
+        {
             let config = Config { crop: Some([left, top, width, height]), ..config.clone() };
             let part = light(scene(ROOM), &config).unwrap();
             assert_eq!([part.width(), part.height()], [width, height]);
             let part_planes = planes(&part);
             for (at, pixel) in part.pixels().iter().enumerate() {
-                let (column, row) = (left as usize + at % width as usize, top as usize + at / width as usize);
+                let (column, row) =
+                    (left as usize + at % width as usize, top as usize + at / width as usize);
                 joined[row * 50 + column] = Some(*pixel);
                 for (plane, whole) in part_planes.iter().zip(&whole_planes) {
-                    assert!(plane[at].to_bits() == whole[row * 50 + column].to_bits(), "{lens:?} {stereo:?}");
+                    assert!(
+                        plane[at].to_bits() == whole[row * 50 + column].to_bits(),
+                        "{lens:?} {stereo:?}"
+                    );
                 }
             }
         }
@@ -103,9 +113,11 @@ fn adaptive_samples_draw_boundaries() {
         (config.picture.samples, config.adaptive) = (samples, adaptive);
         config.picture.output = Output::Color(Format::Pfm);
         let drawn = render(scene(&hard_room()), &config).unwrap();
-        let percent = |note: &Note| if let Note::Adaptive(percent) = note { Some(*percent) } else { None };
+        let percent =
+            |note: &Note| if let Note::Adaptive(percent) = note { Some(*percent) } else { None };
         let part = drawn.notes.iter().find_map(percent).unwrap_or(100.0) / 100.0;
-        let picture = ugimage::read_picture(&drawn.into_file(), &ugimage::PictureLimits::default()).unwrap();
+        let picture =
+            ugimage::read_picture(&drawn.into_file(), &ugimage::PictureLimits::default()).unwrap();
         let ugimage::Pixels::Light(pixels) = picture.pixels else { panic!("light") };
         (pixels, part)
     };
@@ -146,7 +158,10 @@ fn the_first_samples_reach_from_side_to_side() {
             (config.picture.samples, config.adaptive) = (n, Some(1.0));
             let found = light(scene(&text), &config).unwrap().pixels()[0][0];
             let n_lit = first.iter().filter(|&&at| at >= column).count();
-            assert!((found - n_lit as f32 / first.len() as f32).abs() < 1e-6, "{n} {column}: {found}");
+            assert!(
+                (found - n_lit as f32 / first.len() as f32).abs() < 1e-6,
+                "{n} {column}: {found}"
+            );
         }
     }
 }
@@ -195,10 +210,15 @@ fn channels_hold_with_every_lens() {
             // The part of a unit vector in the direction of the motion, and depth by distance.
             let (ahead, flat) = match lens {
                 Lens::Pinhole => (1.0 / (1.0 + radius * radius).sqrt(), true),
-                Lens::Cube if (80..100).contains(&column) => (1.0 / (1.0 + radius * radius).sqrt(), false),
+                Lens::Cube if (80..100).contains(&column) => {
+                    (1.0 / (1.0 + radius * radius).sqrt(), false)
+                }
                 Lens::Panorama => {
                     let longitude = std::f64::consts::TAU * ((column as f64 + 0.5) / 40.0 - 0.5);
-                    (libm::cos(longitude) * libm::cos(std::f64::consts::FRAC_PI_2 * place[1]), false)
+                    (
+                        libm::cos(longitude) * libm::cos(std::f64::consts::FRAC_PI_2 * place[1]),
+                        false,
+                    )
                 }
                 Lens::Fisheye { angle } if radius < 1.0 => (libm::cos(0.5 * angle * radius), false),
                 _ => continue,
@@ -259,8 +279,13 @@ fn moving_glass_absorbs_light_along_its_path() {
             ..CameraOptions::default()
         };
         let background = Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
-        let picture =
-            PictureOptions { size: [1, 1], samples: 1, camera, background, ..PictureOptions::default() };
+        let picture = PictureOptions {
+            size: [1, 1],
+            samples: 1,
+            camera,
+            background,
+            ..PictureOptions::default()
+        };
         light(scene(text), &Config { picture, ..Config::default() }).unwrap().pixels()[0][0]
     };
     let wall = "v a -900 -900 -60; v b 900 -900 -60; v c 900 900 -60; v d -900 900 -60;";
@@ -298,7 +323,8 @@ fn moving_glass_absorbs_light_along_its_path() {
         assert!((found / level - 1.0).abs() < 1e-5, "{velocity}: {found} {level}");
     }
     // Light from the background that never leaves the glass.
-    let endless = "c white 1; l 0; surf glass 0 0 1 1.5 20 0.7; v a -9 -9 -2; v b 9 -9 -2; v c 0 9 -2;
+    let endless =
+        "c white 1; l 0; surf glass 0 0 1 1.5 20 0.7; v a -9 -9 -2; v b 9 -9 -2; v c 0 9 -2;
         f (a b c) white glass; cam -ep 0 0 0;";
     assert_eq!(seen(endless, DVec3::NEG_Z), 0.0);
     assert_eq!(seen(&endless.replace(" 0.7;", ";"), DVec3::NEG_Z), 1.0);
@@ -314,7 +340,8 @@ fn shadows_end_as_smoothly_as_normals() {
     for row in 0..=down {
         for column in 0..across {
             let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(row) / f64::from(down));
-            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(column) / f64::from(across));
+            let (y, x) =
+                libm::sincos(std::f64::consts::TAU * f64::from(column) / f64::from(across));
             let [x, y, z] = [sin * x, sin * y, cos];
             text += &format!("v g{row}_{column} {x} {y} {z} {x} {y} {z};");
         }
@@ -323,10 +350,13 @@ fn shadows_end_as_smoothly_as_normals() {
         let (below, right) = (row + 1, (column + 1) % across);
         // At the poles one of the two triangles has no area.
         if row + 1 < down {
-            text += &format!("f (g{row}_{column} g{below}_{column} g{below}_{right}) white <0.3 0 0.2>;");
+            text += &format!(
+                "f (g{row}_{column} g{below}_{column} g{below}_{right}) white <0.3 0 0.2>;"
+            );
         }
         if row > 0 {
-            text += &format!("f (g{row}_{column} g{below}_{right} g{row}_{right}) white <0.3 0 0.2>;");
+            text +=
+                &format!("f (g{row}_{column} g{below}_{right} g{row}_{right}) white <0.3 0 0.2>;");
         }
     }
     let drawn = |text: &str, shadows: bool| {
@@ -375,13 +405,17 @@ fn lamps_with_a_radius_make_soft_shadows() {
 #[test]
 fn endless_mirrors_end() {
     let mut text = String::from("c white 1; surf both 0.1 0.9 0.9 1.5; l 1;");
-    for (name, (normal, other)) in
-        ["p", "q", "r"].into_iter().zip([(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)])
-    {
+    for (name, (normal, other)) in ["p", "q", "r"].into_iter().zip([
+        (DVec3::X, DVec3::Y),
+        (DVec3::Y, DVec3::Z),
+        (DVec3::Z, DVec3::X),
+    ]) {
         for side in [-2.0_f64, -1.0, 1.0, 2.0] {
             let third = normal.cross(other);
             let label = format!("{}{}", if side < 0.0 { "low" } else { "high" }, side.abs());
-            for (at, [u, v]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate() {
+            for (at, [u, v]) in
+                [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate()
+            {
                 // Counterclockwise seen from outside.
                 let u = u * side.signum();
                 let corner = side * normal + side.abs() * (u * other + v * third);
@@ -442,7 +476,8 @@ fn open_solids_are_named() {
 #[test]
 fn messages() {
     let check = |config: Config, expected: &str| {
-        let found = render(scene(ROOM), &config).err().map(|error| error.words()).unwrap_or_default();
+        let found =
+            render(scene(ROOM), &config).err().map(|error| error.words()).unwrap_or_default();
         assert!(found.contains(expected), "{found}");
     };
     let config = picture([40, 30]);

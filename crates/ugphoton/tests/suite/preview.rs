@@ -20,9 +20,15 @@ cam -ep 0 -6 2 -vc 0 0 .7 -ud 0 0 1;
 ";
 
 fn drawing(config: &Config) -> PreparedScene {
-    PreparedScene::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, true, &())
-        .unwrap()
-        .0
+    PreparedScene::read(
+        config,
+        &ugparse::Source::new("scene.ug", SCENE),
+        ugphoton::PROVENANCE,
+        true,
+        &(),
+    )
+    .unwrap()
+    .0
 }
 
 fn config(size: [u32; 2], crop: Option<[u32; 4]>) -> Config {
@@ -49,12 +55,20 @@ fn a_preview_is_the_picture_at_fewer_pixels() {
         assert!(whole.iter().any(|&rgb| rgb != whole[0]));
         let [width, height] = size;
         for side in PreparedScene::PREVIEWS {
-            let (preview_size, preview) = pixels(&drawing(&config).preview(side, &()).unwrap().into_file());
+            let (preview_size, preview) =
+                pixels(&drawing(&config).preview(side, &()).unwrap().into_file());
             assert_eq!(preview_size, size);
-            for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {
+            for (row, column) in
+                (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
+            {
                 let middle = |at: u32, end: u32| (at / side * side + side / 2).min(end - 1);
-                let expected = whole[(middle(row, height) * width + middle(column, width)) as usize];
-                assert_eq!(preview[(row * width + column) as usize], expected, "{side}: {column} {row}");
+                let expected =
+                    whole[(middle(row, height) * width + middle(column, width)) as usize];
+                assert_eq!(
+                    preview[(row * width + column) as usize],
+                    expected,
+                    "{side}: {column} {row}"
+                );
             }
         }
         assert!(
@@ -75,7 +89,8 @@ fn samples_of_previews_count_as_whole_pixels() {
         pixels(&drawing(&config).preview(8, &()).unwrap().into_file()).1
     });
     // The sample in the middle is in another place; most squares show the same.
-    let n_alike = coarse.iter().zip(&fine).filter(|(a, b)| a.iter().zip(*b).all(|(a, b)| a.abs_diff(*b) < 8));
+    let n_alike =
+        coarse.iter().zip(&fine).filter(|(a, b)| a.iter().zip(*b).all(|(a, b)| a.abs_diff(*b) < 8));
     assert!(n_alike.count() * 2 > coarse.len());
 }
 

@@ -36,7 +36,8 @@ type Rows<T> = LazyLock<Box<[OnceLock<Box<T>>]>>;
 static LIGHT: Rows<WeightedDaylight> = LazyLock::new(|| empty(2 * MOST_ROWS + 1));
 
 /// Quadrature weights by each rule for infrared, for [`DopplerGrid::xyz`].
-static NODES: [Rows<Quadrature<N_NODES>>; 2] = [const { LazyLock::new(|| empty(2 * MOST_ROWS + 1)) }; 2];
+static NODES: [Rows<Quadrature<N_NODES>>; 2] =
+    [const { LazyLock::new(|| empty(2 * MOST_ROWS + 1)) }; 2];
 
 impl DopplerGrid {
     /// A grid that covers a range of ln D.
@@ -83,7 +84,9 @@ impl DopplerGrid {
     /// integrals use the reflectance every 4 nm, with weights that the grid caches. Exact at the
     /// grid's own Doppler factors, and so at rest.
     pub fn xyz(&self, spectrum: &Spectrum, ln_doppler: f64) -> [f64; 3] {
-        let Kind::Reflected(surface) = &spectrum.0 else { return spectrum.shifted(libm::exp(ln_doppler)) };
+        let Kind::Reflected(surface) = &spectrum.0 else {
+            return spectrum.shifted(libm::exp(ln_doppler));
+        };
         let cell = Cell::new(self.first, self.n_points(), ln_doppler);
         if cell.fraction == 0.0 {
             return surface.xyz_under(self.light(cell.idx));
@@ -159,7 +162,8 @@ impl DopplerTable {
 
     /// The logarithms at a point of the grid.
     pub fn point(&self, idx: usize, ln_xyz: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
-        let chunk = self.chunks[idx / CHUNK].get_or_init(|| Box::new([const { OnceLock::new() }; CHUNK]));
+        let chunk =
+            self.chunks[idx / CHUNK].get_or_init(|| Box::new([const { OnceLock::new() }; CHUNK]));
         *chunk[idx % CHUNK].get_or_init(|| ln_xyz(idx))
     }
 }

@@ -33,9 +33,10 @@ impl LightSpectrum {
     /// that transmittance; black bodies and samples shine as they are.
     pub fn new(spectrum: &Spectrum) -> Self {
         match &spectrum.0 {
-            Kind::Reflected(_) | Kind::Measured(_) => {
-                Self { source: Source::Filtered(spectrum.clone()), scale: 1.0 / integrate(daylight)[1] }
-            }
+            Kind::Reflected(_) | Kind::Measured(_) => Self {
+                source: Source::Filtered(spectrum.clone()),
+                scale: 1.0 / integrate(daylight)[1],
+            },
             Kind::Blackbody { kelvin, luminance } => {
                 let scale = luminance / integrate(|nm| planck(nm, *kelvin))[1];
                 if scale.is_finite() {
@@ -44,14 +45,18 @@ impl LightSpectrum {
                 let ln_scale = libm::log(*luminance) - blackbody::ln_xyz(*kelvin)[1];
                 Self { source: Source::ColdBody { kelvin: *kelvin, ln_scale }, scale: 1.0 }
             }
-            Kind::Samples(samples) => Self { source: Source::Samples(samples.to_vec()), scale: 1.0 },
+            Kind::Samples(samples) => {
+                Self { source: Source::Samples(samples.to_vec()), scale: 1.0 }
+            }
         }
     }
 
     /// Relative spectral power at a wavelength in nm: 1 for a table of value 1.
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         let light = match &self.source {
-            Source::Filtered(filter) => filter.transmittance(wavelength_nm) * daylight(wavelength_nm),
+            Source::Filtered(filter) => {
+                filter.transmittance(wavelength_nm) * daylight(wavelength_nm)
+            }
             Source::Blackbody(kelvin) => planck(wavelength_nm, *kelvin),
             Source::ColdBody { kelvin, ln_scale } => {
                 libm::exp(blackbody::ln_planck(wavelength_nm, *kelvin) + ln_scale).min(MOST_LIGHT)
@@ -90,7 +95,9 @@ impl LightSpectrum {
 fn interpolate(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
     let next = samples.partition_point(|&[nm, _]| nm <= wavelength_nm);
     match (next.checked_sub(1).map(|row| samples[row]), samples.get(next)) {
-        (Some([low, from]), Some(&[high, to])) => from + (to - from) * ((wavelength_nm - low) / (high - low)),
+        (Some([low, from]), Some(&[high, to])) => {
+            from + (to - from) * ((wavelength_nm - low) / (high - low))
+        }
         (Some([last, value]), None) if last == wavelength_nm => value,
         _ => 0.0,
     }
@@ -113,7 +120,12 @@ impl Spectrum {
     /// }
     /// # Ok::<(), &str>(())
     /// ```
-    pub fn under(&self, light: &LightSpectrum, doppler: f64, light_doppler: f64) -> Option<[f64; 3]> {
+    pub fn under(
+        &self,
+        light: &LightSpectrum,
+        doppler: f64,
+        light_doppler: f64,
+    ) -> Option<[f64; 3]> {
         if !self.is_surface() {
             return None;
         }

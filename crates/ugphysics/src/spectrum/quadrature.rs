@@ -46,7 +46,10 @@ impl<const N: usize> Quadrature<N> {
         }
         let nm = |row: usize| first + row as f64 * step_nm;
         for weights in &mut weights {
-            weights.iter_mut().enumerate().for_each(|(row, weight)| *weight *= rule.visible_part(nm(row)));
+            weights
+                .iter_mut()
+                .enumerate()
+                .for_each(|(row, weight)| *weight *= rule.visible_part(nm(row)));
         }
         let infrared = match rule {
             InfraredRule::Measured => light.infrared,

@@ -109,7 +109,9 @@ impl Spectrum {
             Kind::Reflected(surface) => surface.xyz_under(&daylight),
             Kind::Blackbody { .. } => spectrum.ln_shifted(doppler).map(libm::exp),
             Kind::Samples(samples) => samples::xyz(samples, doppler),
-            Kind::Measured(samples) => samples::of_daylight(|nm| samples::held(samples, nm), doppler),
+            Kind::Measured(samples) => {
+                samples::of_daylight(|nm| samples::held(samples, nm), doppler)
+            }
         })
     }
 

@@ -57,7 +57,11 @@ impl Reflectance {
         }
         LARGEST_CHANNEL.into_iter().find_map(|brightest| {
             let factor = largest / brightest;
-            let curve = solve(rgb.map(|channel| channel / factor), rule, levels.map(|level| level / factor))?;
+            let curve = solve(
+                rgb.map(|channel| channel / factor),
+                rule,
+                levels.map(|level| level / factor),
+            )?;
             Some(Self { factor, curve: Some(curve), rule, levels })
         })
     }
@@ -65,7 +69,8 @@ impl Reflectance {
     /// The reflectance at a wavelength in nm.
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         let [first, last] = CURVE_NM;
-        let curve = self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)));
+        let curve = self.factor
+            * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)));
         match self.rule {
             InfraredRule::Measured if wavelength_nm > infrared::FIRST_NM => {
                 let (visible, shares) = infrared::parts(wavelength_nm);
@@ -92,7 +97,11 @@ impl Reflectance {
     }
 
     /// X, Y, Z from the values of the reflectance at the nodes of a quadrature by the same rule.
-    pub(crate) fn xyz_at_nodes<const N: usize>(&self, values: &[f64; N], nodes: &Quadrature<N>) -> [f64; 3] {
+    pub(crate) fn xyz_at_nodes<const N: usize>(
+        &self,
+        values: &[f64; N],
+        nodes: &Quadrature<N>,
+    ) -> [f64; 3] {
         let (sums, infrared) = (nodes.sums(values), nodes.infrared(&self.levels));
         std::array::from_fn(|i| self.factor * sums[i] + infrared[i])
     }

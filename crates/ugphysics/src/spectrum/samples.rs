@@ -39,7 +39,9 @@ pub(crate) fn of_daylight(reflectance: impl Fn(f64) -> f64, doppler: f64) -> [f6
 pub(crate) fn held(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
     let next = samples.partition_point(|&[nm, _]| nm <= wavelength_nm);
     match (next.checked_sub(1).map(|row| samples[row]), samples.get(next)) {
-        (Some([low, from]), Some(&[high, to])) => from + (to - from) * ((wavelength_nm - low) / (high - low)),
+        (Some([low, from]), Some(&[high, to])) => {
+            from + (to - from) * ((wavelength_nm - low) / (high - low))
+        }
         (Some([_, end]), None) | (None, Some(&[_, end])) => end,
         (None, None) => 0.0,
     }

@@ -28,7 +28,11 @@ const MAX_NEWTON_STEPS: usize = 4;
 /// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB,
 /// by the Levenberg–Marquardt method: first on nodes every 20 nm, then every 4 nm, then on every
 /// nanometre. `None` if no curve is found.
-pub(crate) fn solve(color: [f64; 3], rule: InfraredRule, levels: [f64; N_LEVELS]) -> Option<Coefficients> {
+pub(crate) fn solve(
+    color: [f64; 3],
+    rule: InfraredRule,
+    levels: [f64; N_LEVELS],
+) -> Option<Coefficients> {
     let (coarse, middle, fine) = grids(rule);
     let infrared = fine.infrared(&levels);
     let target = std::array::from_fn(|i| color[i] - infrared[i]);
@@ -140,7 +144,11 @@ fn levenberg_marquardt<const N: usize>(
     best
 }
 
-fn evaluate<const N: usize>(grid: &Quadrature<N>, target: [f64; 3], curve: Coefficients) -> Evaluation {
+fn evaluate<const N: usize>(
+    grid: &Quadrature<N>,
+    target: [f64; 3],
+    curve: Coefficients,
+) -> Evaluation {
     let (values, basis) = grid.curve_and_slopes(curve);
     let sums = grid.sums(&values);
     let slopes = std::array::from_fn(|i| std::array::from_fn(|j| dot(&basis[j], &grid.weights[i])));
@@ -157,13 +165,15 @@ fn max_norm(error: [f64; 3]) -> f64 {
 
 /// The damped step: solves (JᵀJ + damping diag JᵀJ) step = −Jᵀ error by Cramer's rule.
 fn step(error: [f64; 3], slopes: [[f64; 3]; 3], damping: f64) -> Option<[f64; 3]> {
-    let entry =
-        |i: usize, j: usize| (0..3).map(|channel| slopes[channel][i] * slopes[channel][j]).sum::<f64>();
+    let entry = |i: usize, j: usize| {
+        (0..3).map(|channel| slopes[channel][i] * slopes[channel][j]).sum::<f64>()
+    };
     let mut matrix: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
     for (i, row) in matrix.iter_mut().enumerate() {
         row[i] *= 1.0 + damping;
     }
-    let right: [f64; 3] = std::array::from_fn(|i| -(0..3).map(|ch| slopes[ch][i] * error[ch]).sum::<f64>());
+    let right: [f64; 3] =
+        std::array::from_fn(|i| -(0..3).map(|ch| slopes[ch][i] * error[ch]).sum::<f64>());
     let det = determinant(matrix);
     let part = |column: usize| {
         let mut replaced = matrix;

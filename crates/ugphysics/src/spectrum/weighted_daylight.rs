@@ -31,8 +31,15 @@ impl WeightedDaylight {
         let [inside, joined] =
             [[0; 3]; 2].map(|channels| channels.map(|_| Vec::with_capacity(CIE_1931.len())));
         let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
-        let mut light =
-            Self { doppler, ultraviolet, beyond: [0.0; 3], infrared, first_nm: 0.0, inside, joined };
+        let mut light = Self {
+            doppler,
+            ultraviolet,
+            beyond: [0.0; 3],
+            infrared,
+            first_nm: 0.0,
+            inside,
+            joined,
+        };
         let scale = 1.0 / white_luminance();
         for (row, weights) in CIE_1931.iter().enumerate() {
             let seen_nm = (FIRST_NM + row) as f64;
@@ -53,7 +60,11 @@ impl WeightedDaylight {
                     light.first_nm = seen_nm;
                 }
                 light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
-                light.joined.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(visible * part));
+                light
+                    .joined
+                    .iter_mut()
+                    .zip(xyz)
+                    .for_each(|(channel, part)| channel.push(visible * part));
                 continue;
             };
             into.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);

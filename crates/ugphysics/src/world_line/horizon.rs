@@ -47,7 +47,11 @@ impl Moving {
             return Ok(());
         }
         let is_finite = own_time.is_finite();
-        Err(if is_finite { WorldLineError::ManyTurns { own_time } } else { WorldLineError::NotFinite })
+        Err(if is_finite {
+            WorldLineError::ManyTurns { own_time }
+        } else {
+            WorldLineError::NotFinite
+        })
     }
 
     /// Own times at which acceleration or a spin changes.
@@ -87,7 +91,8 @@ impl Moving {
         }
         let spins = self.turns.iter().map(|turn| turn.spin.rate(inside).length());
         let rates = spins.chain([self.path.turn_rate()]).filter(|&rate| rate > 0.0);
-        let (n_turns, slowest) = rates.fold((0, f64::INFINITY), |(n, least), rate| (n + 1, rate.min(least)));
+        let (n_turns, slowest) =
+            rates.fold((0, f64::INFINITY), |(n, least), rate| (n + 1, rate.min(least)));
         if n_turns == 0 || n_turns == 1 && self.acceleration(inside) == DVec3::ZERO {
             return is_at(inside);
         }

@@ -67,8 +67,11 @@ impl InertialFrame {
         }
         let turn = self.rotation();
         let is_turned = self.turn != DVec3::ZERO;
-        let relative =
-            if is_turned { Velocity::from_proper(turn * inner.velocity.proper())? } else { inner.velocity };
+        let relative = if is_turned {
+            Velocity::from_proper(turn * inner.velocity.proper())?
+        } else {
+            inner.velocity
+        };
         // Rounded to what texts express, before anything follows from it.
         let velocity = compose_rounded(relative, self.velocity)?;
         let turn = wigner_rotation(relative, self.velocity) * turn * inner.rotation();
@@ -114,5 +117,9 @@ fn turn_vector(turn: DQuat) -> DVec3 {
     let sine = DVec3::new(turn.x, turn.y, turn.z);
     let length = crate::length(sine);
     const ROUNDING: f64 = 1e-15;
-    if length < ROUNDING { DVec3::ZERO } else { sine * (2.0 * libm::atan2(length, turn.w) / length) }
+    if length < ROUNDING {
+        DVec3::ZERO
+    } else {
+        sine * (2.0 * libm::atan2(length, turn.w) / length)
+    }
 }

@@ -144,11 +144,15 @@ impl core::fmt::Display for WorldLineError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::NotFinite => write!(f, "a number of the motion is too large"),
-            Self::EmptyPiece { piece: [from, to] } => write!(f, "a piece from {from} to {to} is empty"),
+            Self::EmptyPiece { piece: [from, to] } => {
+                write!(f, "a piece from {from} to {to} is empty")
+            }
             Self::Overlap { from: f64::NEG_INFINITY } => {
                 write!(f, "two pieces of a kind act at all times")
             }
-            Self::Overlap { from } => write!(f, "the piece that begins at {from} overlaps the one before"),
+            Self::Overlap { from } => {
+                write!(f, "the piece that begins at {from} overlaps the one before")
+            }
             Self::Velocity(error) => error.fmt(f),
             Self::TooLong { rapidity } => write!(
                 f,
@@ -157,12 +161,22 @@ impl core::fmt::Display for WorldLineError {
             ),
             Self::NoAxis => write!(f, "the axis is the zero vector"),
             Self::FewEvents => write!(f, "the path has fewer than two events"),
-            Self::TimeOrder { row } => write!(f, "the time does not increase from event {} on", row + 1),
+            Self::TimeOrder { row } => {
+                write!(f, "the time does not increase from event {} on", row + 1)
+            }
             Self::TooFast { row } => {
-                write!(f, "the speed reaches that of light between events {} and {}", row + 1, row + 2)
+                write!(
+                    f,
+                    "the speed reaches that of light between events {} and {}",
+                    row + 1,
+                    row + 2
+                )
             }
             Self::Horizon { own_time } => {
-                write!(f, "at own time {own_time} the point would move at the speed of light or faster")
+                write!(
+                    f,
+                    "at own time {own_time} the point would move at the speed of light or faster"
+                )
             }
             Self::ManyTurns { own_time } => write!(
                 f,
@@ -210,7 +224,12 @@ impl WorldLine {
 
     /// A motion whose reference point, `at` in the coordinates of the body, follows a curve.
     /// `initial`: its velocity at own time 0.
-    fn on_curve(at: DVec3, initial: Velocity, curve: Curve, spins: &[Piece]) -> Result<Self, WorldLineError> {
+    fn on_curve(
+        at: DVec3,
+        initial: Velocity,
+        curve: Curve,
+        spins: &[Piece],
+    ) -> Result<Self, WorldLineError> {
         if !at.is_finite() {
             return Err(WorldLineError::NotFinite);
         }
@@ -270,11 +289,15 @@ impl WorldLine {
     /// subtracted.
     pub fn in_frame(&self, target_from_source: Lorentz, origin: Event) -> Self {
         let mut moving = match &self.0 {
-            Kind::Inertial(frame) => return Self(Kind::Inertial(frame.in_frame(target_from_source, origin))),
+            Kind::Inertial(frame) => {
+                return Self(Kind::Inertial(frame.in_frame(target_from_source, origin)));
+            }
             Kind::Moving(moving) => (**moving).clone(),
         };
         match &mut moving.path {
-            Path::Accelerated(acceleration) => acceleration.change_frame(target_from_source, origin),
+            Path::Accelerated(acceleration) => {
+                acceleration.change_frame(target_from_source, origin)
+            }
             Path::Curved(framed) => framed.change_frame(target_from_source, origin),
         }
         let frame = moving.pose(0.0).scene_from_axes;
@@ -312,8 +335,7 @@ impl WorldLine {
     /// True if it passes given events, or is part of a motion that does: its place in space and
     /// time is stated, and no body is placed otherwise by what is seen of it.
     pub fn passes_events(&self) -> bool {
-        let is_table =
-            |path: &Path| matches!(path, Path::Curved(framed) if matches!(framed.curve, Curve::Along(_)));
+        let is_table = |path: &Path| matches!(path, Path::Curved(framed) if matches!(framed.curve, Curve::Along(_)));
         matches!(&self.0, Kind::Moving(moving) if is_table(&moving.path))
     }
 
@@ -377,7 +399,11 @@ impl WorldLine {
         let mut moving = match &self.0 {
             Kind::Inertial(frame) => {
                 let shift = frame.shift + Event { t: 0.0, x: origin };
-                return Self(Kind::Inertial(InertialFrame { at: frame.at - origin, shift, ..*frame }));
+                return Self(Kind::Inertial(InertialFrame {
+                    at: frame.at - origin,
+                    shift,
+                    ..*frame
+                }));
             }
             Kind::Moving(moving) => (**moving).clone(),
         };
@@ -448,7 +474,12 @@ impl WorldLine {
     ///
     /// # Errors
     /// As [`WorldLine::emission`].
-    pub fn light_near(&self, point: DVec3, observer: Event, guess: f64) -> Result<SeenLight, WorldLineError> {
+    pub fn light_near(
+        &self,
+        point: DVec3,
+        observer: Event,
+        guess: f64,
+    ) -> Result<SeenLight, WorldLineError> {
         self.moving().light(point, observer, Some(guess))
     }
 

@@ -154,7 +154,9 @@ impl Moving {
     /// The pose without spin, and the proper acceleration in the carried axes.
     pub(super) fn carried_with_acceleration(&self, own_time: f64) -> (Pose, DVec3) {
         match &self.path {
-            Path::Accelerated(acceleration) => (acceleration.pose(own_time), acceleration.at(own_time)),
+            Path::Accelerated(acceleration) => {
+                (acceleration.pose(own_time), acceleration.at(own_time))
+            }
             Path::Curved(framed) => framed.pose(own_time),
         }
     }
@@ -186,7 +188,11 @@ impl Moving {
     }
 
     /// X(τ) = z(τ) + Σ ξⁱ e_i and ∂X/∂τ = (1 + a·ξ) u + (dξ/dτ)ⁱ e_i.  Eq. (P41)
-    pub(super) fn point_event(&self, point: DVec3, own_time: f64) -> Result<PointEvent, WorldLineError> {
+    pub(super) fn point_event(
+        &self,
+        point: DVec3,
+        own_time: f64,
+    ) -> Result<PointEvent, WorldLineError> {
         let offset = self.offset(point, own_time);
         let Offset { xi, swing } = offset;
         let (lapse, (event, rate)) = match &self.path {
@@ -247,7 +253,11 @@ impl Moving {
         })
     }
 
-    pub(super) fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
+    pub(super) fn emission(
+        &self,
+        point: DVec3,
+        observer: Event,
+    ) -> Result<EmissionEvent, WorldLineError> {
         let (own_time, PointEvent { event, rate, clock }) = self.root(point, observer, None)?;
         Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
     }
@@ -282,7 +292,8 @@ impl Moving {
         // Rounding of the own time leaves a fast point off the light cone, by γ times as much.
         let way = observer.x - at.event.x;
         let rate = at.rate;
-        let left = (observer.t - at.event.t - way.length()) / (rate.t - unit_or_zero(way).dot(rate.x));
+        let left =
+            (observer.t - at.event.t - way.length()) / (rate.t - unit_or_zero(way).dot(rate.x));
         if left.is_finite() {
             at.event = at.event + Event { t: rate.t * left, x: rate.x * left };
         }

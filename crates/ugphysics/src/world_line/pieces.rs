@@ -257,7 +257,11 @@ impl Acceleration {
             let step = 1 + n_visited / 64;
             let next = if own_time > end && row < high {
                 low = row + 1;
-                if high == stretches.len() - 1 { (row + step).min(high) } else { low.midpoint(high) }
+                if high == stretches.len() - 1 {
+                    (row + step).min(high)
+                } else {
+                    low.midpoint(high)
+                }
             } else if own_time < stretch.from && row > low {
                 high = row - 1;
                 if low == 0 { row.saturating_sub(step) } else { low.midpoint(high) }
@@ -327,7 +331,11 @@ fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
     if from.is_finite() && to.is_finite() {
         let rapidity = (to - from) * piece.of.length();
         let is_finite = rapidity.is_finite();
-        return Err(if is_finite { WorldLineError::TooLong { rapidity } } else { WorldLineError::NotFinite });
+        return Err(if is_finite {
+            WorldLineError::TooLong { rapidity }
+        } else {
+            WorldLineError::NotFinite
+        });
     }
     piece.to = to.min(from.max(0.0) + most);
     piece.from = from.max(to.min(0.0) - most);

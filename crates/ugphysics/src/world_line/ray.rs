@@ -238,8 +238,9 @@ impl Moving {
             Some(turn) => (turn.pivot, self.turns.as_slice()),
             None => {
                 let ends = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                let (low, high) =
-                    points.clone().fold(ends, |(low, high), point| (low.min(point), high.max(point)));
+                let (low, high) = points
+                    .clone()
+                    .fold(ends, |(low, high), point| (low.min(point), high.max(point)));
                 let middle = low.midpoint(high);
                 (if middle.is_finite() { middle } else { self.at }, [].as_slice())
             }
@@ -248,7 +249,8 @@ impl Moving {
             [] => (point - center).length(),
             turns => reach(turns, point),
         };
-        let radius = points.clone().map(radius).fold(0.0, f64::max) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
+        let radius =
+            points.clone().map(radius).fold(0.0, f64::max) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
         let offset = center - self.at;
         let lapse = |acceleration: DVec3| match &self.path {
             Path::Accelerated(_) if self.turns.is_empty() => points
@@ -392,7 +394,9 @@ pub(super) fn turn_bounds((speed, bend): (f64, f64), rate: f64, arm: f64) -> (f6
 
 /// How far a point of a body can be from the last pivot, however the body has turned.
 fn reach(turns: &[Turn], point: DVec3) -> f64 {
-    let step = |(reach, from): (f64, DVec3), turn: &Turn| (reach + (turn.pivot - from).length(), turn.pivot);
+    let step = |(reach, from): (f64, DVec3), turn: &Turn| {
+        (reach + (turn.pivot - from).length(), turn.pivot)
+    };
     turns.iter().fold((0.0, point), step).0
 }
 
@@ -506,10 +510,12 @@ impl RayStretch<'_> {
         match &self.passage.path {
             StretchPath::Accelerated { origin, .. } if self.passage.acceleration == 0.0 => {
                 let radius = tube.radius * (1.0 + 1e-6) + 1e-12 * origin.x.length();
-                let Some([first, last]) = straight_within(origin.x - center, self.step, radius) else {
+                let Some([first, last]) = straight_within(origin.x - center, self.step, radius)
+                else {
                     return range.end..range.end;
                 };
-                let [first, last] = [first, last].map(|passed| self.passage.known_at + origin.t + passed);
+                let [first, last] =
+                    [first, last].map(|passed| self.passage.known_at + origin.t + passed);
                 range.start.max(first)..range.end.min(last)
             }
             _ => self.shrunk(center, tube.radius, range),

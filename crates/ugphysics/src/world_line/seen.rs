@@ -152,7 +152,10 @@ impl Sight<'_> {
         let low = parts.iter().map(|part| part.own_times.start).fold(f64::INFINITY, f64::min);
         let high = parts.iter().map(|part| part.own_times.end).fold(f64::NEG_INFINITY, f64::max);
         let deviation = parts.iter().map(|part| part.deviation).fold(0.0, f64::max);
-        Some(SeenTriangle { own_times: low..high, deviation: deviation + of_ab.max(of_bc).max(of_ca) })
+        Some(SeenTriangle {
+            own_times: low..high,
+            deviation: deviation + of_ab.max(of_bc).max(of_ca),
+        })
     }
 
     /// The triangle as a whole.
@@ -164,7 +167,8 @@ impl Sight<'_> {
         let (pose, acceleration) = moving.carried_with_acceleration(own_time);
         let Event { x: way, .. } = pose.scene_from_axes.inverse().apply(first.event - observer);
         let distance = way.length();
-        let Event { t: gamma, x: proper } = pose.scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO });
+        let Event { t: gamma, x: proper } =
+            pose.scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO });
         let rounding = ROUNDING * (distance + own_time.abs() + tube.reach());
         let around = |time: f64| own_time - time..own_time + time;
 
@@ -183,7 +187,8 @@ impl Sight<'_> {
             let half = least(bounds.slopes(0.5 * q, edge)?).filter(|least| *least > 0.5 * q)?;
             let slopes = bounds.slopes(half, edge)?;
             let reach = around(slopes.time * edge);
-            let is_smooth = passage.own_times.start <= reach.start && reach.end <= passage.own_times.end;
+            let is_smooth =
+                passage.own_times.start <= reach.start && reach.end <= passage.own_times.end;
             let nearest = distance - slopes.place * edge;
             if !is_smooth || nearest <= 0.0 {
                 return None;
@@ -195,9 +200,10 @@ impl Sight<'_> {
             let place = along + slopes.swing * time;
             let share = edge * edge / 6.0;
             let own_times = corners.iter().map(|(_, seen)| seen.own_time);
-            let (low, high) = own_times.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), time| {
-                (low.min(time), high.max(time))
-            });
+            let (low, high) = own_times
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), time| {
+                    (low.min(time), high.max(time))
+                });
             let margin = time * share + rounding;
             let deviation = (gamma * place + proper.length() * (place + turn)) * share;
             Some(SeenTriangle { own_times: low - margin..high + margin, deviation })
@@ -219,9 +225,11 @@ impl Sight<'_> {
 impl Moving {
     /// Bounds for points no farther than `margin` from one, during passages.
     fn bounds(&self, point: DVec3, margin: f64, passages: &[SmoothStretch]) -> Bounds {
-        let most = |value: &dyn Fn(&SmoothStretch) -> f64| passages.iter().map(value).fold(0.0, f64::max);
+        let most =
+            |value: &dyn Fn(&SmoothStretch) -> f64| passages.iter().map(value).fold(0.0, f64::max);
         let rate = |turn: &Turn| most(&|passage| turn.spin.rate(passage.known_at).length());
-        let (acceleration, jerk) = (most(&|passage| passage.acceleration), most(&|passage| passage.jerk));
+        let (acceleration, jerk) =
+            (most(&|passage| passage.acceleration), most(&|passage| passage.jerk));
         let (mut speed, mut bend, mut spin) = (0.0, 0.0, 0.0);
         let (mut arm, mut from) = (margin, point);
         for turn in &self.turns {

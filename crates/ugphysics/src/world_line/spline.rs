@@ -129,7 +129,12 @@ pub(super) fn spline(events: &[Event]) -> Result<Vec<Row>, WorldLineError> {
         accelerations[n - 1] = end(n - 2, n - 3, [accelerations[n - 2], accelerations[n - 3]]);
     }
     let mut later = accelerations[n - 1];
-    let last = Row { event: events[n - 1], velocity: DVec3::ZERO, second: DVec3::ZERO, third: DVec3::ZERO };
+    let last = Row {
+        event: events[n - 1],
+        velocity: DVec3::ZERO,
+        second: DVec3::ZERO,
+        third: DVec3::ZERO,
+    };
     let mut rows = vec![last; n];
     for row in (0..n - 1).rev() {
         let here = accelerations[row];

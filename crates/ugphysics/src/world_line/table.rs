@@ -70,7 +70,8 @@ struct Step {
 fn step(row: &Row, from: f64, to: f64) -> Step {
     let length = to - from;
     let reach = 15.0_f64.sqrt() / 10.0;
-    let [first, middle, last] = [0.5 - reach, 0.5, 0.5 + reach].map(|part| row.at(from + part * length));
+    let [first, middle, last] =
+        [0.5 - reach, 0.5, 0.5 + reach].map(|part| row.at(from + part * length));
     let own_time = length / 18.0 * (5.0 * (first.lapse() + last.lapse()) + 8.0 * middle.lapse());
     let [first, middle, last] = [first, middle, last].map(|instant| instant.thomas());
     let a = length * middle;
@@ -120,19 +121,28 @@ impl Tabulation<'_> {
     ///
     /// # Errors
     /// [`WorldLineError::TooFast`] unless the speed is below that of light in all of it.
-    fn add(&mut self, row: usize, [from, to]: [f64; 2], halvings: usize) -> Result<(), WorldLineError> {
+    fn add(
+        &mut self,
+        row: usize,
+        [from, to]: [f64; 2],
+        halvings: usize,
+    ) -> Result<(), WorldLineError> {
         let too_fast = WorldLineError::TooFast { row };
         let cubic = &self.rows[row];
         let middle = from.midpoint(to);
         let [start, inside, end] = [from, middle, to].map(|passed| cubic.at(passed));
         let least = start.slowness().min(inside.slowness()).min(end.slowness());
         // NaN fails the comparison.
-        if !matches!(least.partial_cmp(&SampledPath::LEAST_SLOWNESS), Some(core::cmp::Ordering::Greater)) {
+        if !matches!(
+            least.partial_cmp(&SampledPath::LEAST_SLOWNESS),
+            Some(core::cmp::Ordering::Greater)
+        ) {
             return Err(too_fast);
         }
         let bound = Instant::least_slowness_between(&start, &end, to - from);
         let is_full = self.nodes.len() > self.rows.len() + Self::MOST_NODES;
-        let is_precise = || bound >= 0.8 * least && self.is_precise(cubic, [from, middle, to], least);
+        let is_precise =
+            || bound >= 0.8 * least && self.is_precise(cubic, [from, middle, to], least);
         if if is_full { bound > 0.0 } else { is_precise() } {
             self.push(row, [from, to], (&start, &end), bound);
             return Ok(());
@@ -147,7 +157,8 @@ impl Tabulation<'_> {
     /// Compares a step with two of half its length. `slowness`: the least of 1 − v², whose rounding
     /// error limits the precision.
     fn is_precise(&self, row: &Row, [from, middle, to]: [f64; 3], slowness: f64) -> bool {
-        let (whole, first, last) = (step(row, from, to), step(row, from, middle), step(row, middle, to));
+        let (whole, first, last) =
+            (step(row, from, to), step(row, from, middle), step(row, middle, to));
         let tolerance = Self::TOLERANCE + 2e-15 / slowness;
         let own_time = first.own_time + last.own_time - whole.own_time;
         let halves = rotation(last.turn, 1.0) * rotation(first.turn, 1.0);
@@ -156,7 +167,13 @@ impl Tabulation<'_> {
             && turn <= tolerance * (first.turn.length() + last.turn.length()) + 1e-15
     }
 
-    fn push(&mut self, row: usize, [from, to]: [f64; 2], (start, end): (&Instant, &Instant), slowness: f64) {
+    fn push(
+        &mut self,
+        row: usize,
+        [from, to]: [f64; 2],
+        (start, end): (&Instant, &Instant),
+        slowness: f64,
+    ) {
         let own_time = self.own_time.sum + self.own_time.rest;
         self.nodes.push(Node { row: row as u32, passed: from, own_time, turn: self.turn });
         // With γ' = γ³ v·a: |a| ≤ γ³|a'| and |da/dτ| ≤ γ⁴|j| + 3γ⁶|a'|², for the second and third
@@ -164,8 +181,10 @@ impl Tabulation<'_> {
         let gamma = 1.0 / slowness.sqrt();
         let rate = gamma * gamma * gamma * start.second.length().max(end.second.length());
         let jerk = self.rows[row].third.length();
-        self.bounds
-            .push([rate, gamma * gamma * gamma * gamma * jerk + 3.0 * rate * rate].map(|x| x * (1.0 + 1e-9)));
+        self.bounds.push(
+            [rate, gamma * gamma * gamma * gamma * jerk + 3.0 * rate * rate]
+                .map(|x| x * (1.0 + 1e-9)),
+        );
         let step = step(&self.rows[row], from, to);
         self.own_time.add(step.own_time);
         self.turn = (rotation(step.turn, 1.0) * self.turn).normalize();
@@ -181,7 +200,8 @@ impl SampledPath {
 
     /// Bytes of memory for each event while a path is computed and kept, if one piece of
     /// integration is enough between two of them.
-    pub const BYTES_PER_EVENT: usize = size_of::<Event>() + size_of::<Row>() + size_of::<Node>() + 64;
+    pub const BYTES_PER_EVENT: usize =
+        size_of::<Event>() + size_of::<Row>() + size_of::<Node>() + 64;
 
     /// A number that two paths have in common if they share their memory.
     pub fn address(&self) -> usize {
@@ -251,17 +271,23 @@ impl SampledPath {
         let straight = |row: &Row, late: f64, turn: DQuat| {
             let instant = Instant { second: DVec3::ZERO, ..row.at(0.0) };
             let passed = late / instant.lapse();
-            let event = Event { t: row.event.t + passed, x: row.event.x + passed * instant.velocity };
+            let event =
+                Event { t: row.event.t + passed, x: row.event.x + passed * instant.velocity };
             (event, instant, turn)
         };
         if node == 0 {
             return straight(&rows[0], own_time, DQuat::IDENTITY);
         }
-        let (Node { row, passed, own_time: start, turn }, next) = (nodes[node - 1], nodes.get(node));
+        let (Node { row, passed, own_time: start, turn }, next) =
+            (nodes[node - 1], nodes.get(node));
         let row = &rows[row as usize];
         let late = own_time - start;
         let Some(next) = next else { return straight(row, late, turn) };
-        let end = if next.passed > 0.0 { next.passed } else { rows[next.row as usize].event.t - row.event.t };
+        let end = if next.passed > 0.0 {
+            next.passed
+        } else {
+            rows[next.row as usize].event.t - row.event.t
+        };
         let now = time_after(row, [passed, end], late / (next.own_time - start), late);
         let turned = step(row, passed, now).turn;
         let turn = if turned == DVec3::ZERO { turn } else { rotation(turned, 1.0) * turn };

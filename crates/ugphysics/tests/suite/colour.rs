@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use ugphysics::{
-    CONTROL_POINTS, Hsv, attenuation, hue_to_wavelength, linear_srgb_to_xyz, luminance, srgb_decode,
-    srgb_encode, wavelength_to_hue, xyz_to_linear_srgb,
+    CONTROL_POINTS, Hsv, attenuation, hue_to_wavelength, linear_srgb_to_xyz, luminance,
+    srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb,
 };
 
 use crate::near;
@@ -30,8 +30,9 @@ fn slopes_at_the_control_points() {
     for point in CONTROL_POINTS {
         let h = 1e-4;
         let hue = |steps: f64| wavelength_to_hue(point.wavelength_nm + steps * h);
-        let slope =
-            |h_sign: f64| h_sign * (4.0 * hue(h_sign) - hue(2.0 * h_sign) - 3.0 * hue(0.0)) / (2.0 * h);
+        let slope = |h_sign: f64| {
+            h_sign * (4.0 * hue(h_sign) - hue(2.0 * h_sign) - 3.0 * hue(0.0)) / (2.0 * h)
+        };
         if point.wavelength_nm < 780.0 {
             near("slope to the red", slope(1.0), point.slope, 1e-7);
         }
@@ -44,14 +45,17 @@ fn slopes_at_the_control_points() {
 #[test]
 fn hue_falls_strictly() {
     let step = 0.01;
-    let hues: Vec<f64> = (0..=40_000).map(|i| wavelength_to_hue(380.0 + step * f64::from(i))).collect();
-    let least_slope = hues.windows(2).map(|pair| (pair[0] - pair[1]) / step).fold(f64::INFINITY, f64::min);
+    let hues: Vec<f64> =
+        (0..=40_000).map(|i| wavelength_to_hue(380.0 + step * f64::from(i))).collect();
+    let least_slope =
+        hues.windows(2).map(|pair| (pair[0] - pair[1]) / step).fold(f64::INFINITY, f64::min);
     near("least slope", least_slope, 0.3899, 1e-4);
 }
 
 #[test]
 fn hues_outside_wrap_and_wavelengths_outside_clamp() {
-    for (hue, same) in [(330.0, -30.0), (359.0, -1.0), (360.0, 0.0), (-300.0, 60.0), (480.0, 120.0)] {
+    for (hue, same) in [(330.0, -30.0), (359.0, -1.0), (360.0, 0.0), (-300.0, 60.0), (480.0, 120.0)]
+    {
         assert_eq!(hue_to_wavelength(hue), hue_to_wavelength(same), "{hue}");
     }
     assert_eq!(hue_to_wavelength(300.0), 380.0);

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3, Vec4Swizzles};
 use ugphysics::{
-    Event, IncidentLight, Lorentz, Velocity, ambient_illumination, compose, doppler_factor, illumination,
-    illumination_from_afar,
+    Event, IncidentLight, Lorentz, Velocity, ambient_illumination, compose, doppler_factor,
+    illumination, illumination_from_afar,
 };
 
 use crate::{along_x, beta, directions, near, near_vector};
@@ -22,10 +22,17 @@ pub fn irradiance(light: IncidentLight) -> f64 {
 /// Surface point, its velocity, light, its velocity: across, along and against each other, slow and
 /// fast.
 fn settings() -> Vec<(DVec3, Velocity, DVec3, Velocity)> {
-    let points = [DVec3::new(3.0, 4.0, -1.0), DVec3::new(-2.0, 0.1, 7.0), DVec3::new(0.5, 9.0, 0.3)];
-    let lights = [DVec3::new(0.0, 5.0, 5.0), DVec3::new(-40.0, 2.0, 1.0), DVec3::new(2.0, -3.0, -0.5)];
-    let velocities =
-        [Velocity::ZERO, along_x(0.9), beta(-0.3, 0.4, 0.5), beta(0.0, 0.0, -0.99), beta(1e-6, 0.0, 2e-6)];
+    let points =
+        [DVec3::new(3.0, 4.0, -1.0), DVec3::new(-2.0, 0.1, 7.0), DVec3::new(0.5, 9.0, 0.3)];
+    let lights =
+        [DVec3::new(0.0, 5.0, 5.0), DVec3::new(-40.0, 2.0, 1.0), DVec3::new(2.0, -3.0, -0.5)];
+    let velocities = [
+        Velocity::ZERO,
+        along_x(0.9),
+        beta(-0.3, 0.4, 0.5),
+        beta(0.0, 0.0, -0.99),
+        beta(1e-6, 0.0, 2e-6),
+    ];
     let mut all = Vec::new();
     for (p, light) in points.into_iter().zip(lights) {
         for v in velocities {
@@ -141,10 +148,12 @@ fn a_distant_lamp_is_a_directional_light() {
 fn directional_light_obeys_aberration_and_doppler_shift() {
     for direction in directions() {
         for v_light in [along_x(0.6), beta(0.3, -0.8, 0.2), beta(0.0, 0.0, 0.999)] {
-            let light = illumination_from_afar(Velocity::ZERO, direction, v_light).expect("a direction");
+            let light =
+                illumination_from_afar(Velocity::ZERO, direction, v_light).expect("a direction");
             near("D", light.doppler, doppler_factor(-light.toward, v_light), 1e-12);
             // The reverse transformation, in the frame of the light, where the surface moves.
-            let back = illumination_from_afar(v_light, light.toward, Velocity::ZERO).expect("a direction");
+            let back =
+                illumination_from_afar(v_light, light.toward, Velocity::ZERO).expect("a direction");
             near("there and back", light.doppler * back.doppler, 1.0, 1e-12);
             near_vector("the same way", back.toward, direction, 1e-11);
         }
@@ -180,8 +189,9 @@ fn power_through_a_sphere() {
 
 #[test]
 fn extremes() {
-    let fast =
-        |rapidity: f64| Velocity::from_rapidity(DVec3::X, rapidity).expect("a rapidity below the limit");
+    let fast = |rapidity: f64| {
+        Velocity::from_rapidity(DVec3::X, rapidity).expect("a rapidity below the limit")
+    };
     // Ahead of a light at rapidity η, D = e^η, however close to 1 its speed is.
     for rapidity in [1e-8, 1.0, 20.0, 90.0] {
         let light = light_on(DVec3::ZERO, Velocity::ZERO, DVec3::NEG_X, fast(rapidity));
@@ -224,9 +234,12 @@ fn a_moving_sky_is_a_sum_of_directional_lights() {
                 for point in 0..n_points {
                     let (sin_turn, cos_turn) =
                         libm::sincos(2.0 * PI * f64::from(point) / f64::from(n_points));
-                    let d = cos * axis + (1.0 - cos * cos).sqrt() * (cos_turn * aside + sin_turn * up);
-                    let light = illumination_from_afar(Velocity::ZERO, d, v_sky).expect("a direction");
-                    let level = normal.dot(light.toward).max(0.0) * 4.0 / f64::from(n_rings * n_points);
+                    let d =
+                        cos * axis + (1.0 - cos * cos).sqrt() * (cos_turn * aside + sin_turn * up);
+                    let light =
+                        illumination_from_afar(Velocity::ZERO, d, v_sky).expect("a direction");
+                    let level =
+                        normal.dot(light.toward).max(0.0) * 4.0 / f64::from(n_rings * n_points);
                     sums[0] += level * light.doppler;
                     sums[1] += level * light.doppler * light.doppler;
                 }

@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3, Vec3Swizzles};
 use proptest::prelude::*;
 use ugphysics::{
-    Event, Lorentz, Velocity, aberrate, compose, contracted, doppler_at, doppler_factor, flight_time,
-    observer_shift, rest_position, seen_event, seen_position, wigner_rotation,
+    Event, Lorentz, Velocity, aberrate, compose, contracted, doppler_at, doppler_factor,
+    flight_time, observer_shift, rest_position, seen_event, seen_position, wigner_rotation,
 };
 
 use crate::{along_x, angle_deg, directions, near, near_vector};
@@ -171,7 +171,11 @@ pub fn sphere_outline(centre: DVec3, sine: f64, v: Velocity, n_points: u32) -> V
 /// apart since aberration crowds them.
 pub fn circle_through(directions: &[DVec3]) -> (DVec3, f64) {
     let furthest = |measure: &dyn Fn(DVec3) -> f64| {
-        directions.iter().copied().max_by(|&p, &q| measure(p).total_cmp(&measure(q))).unwrap_or_default()
+        directions
+            .iter()
+            .copied()
+            .max_by(|&p, &q| measure(p).total_cmp(&measure(q)))
+            .unwrap_or_default()
     };
     let a = directions[0];
     let b = furthest(&|p| (p - a).length());
@@ -209,14 +213,18 @@ fn the_eye_itself_stays_where_it_is() {
 
 #[test]
 fn every_size_and_speed_gives_a_finite_answer() {
-    let fastest = Velocity::from_rapidity(DVec3::new(1.0, 2.0, -2.0), Velocity::MAX_RAPIDITY).unwrap();
+    let fastest =
+        Velocity::from_rapidity(DVec3::new(1.0, 2.0, -2.0), Velocity::MAX_RAPIDITY).unwrap();
     let slowest = Velocity::from_beta(DVec3::new(0.0, 5e-324, 0.0)).unwrap();
     for v in [fastest, -fastest, slowest] {
         for size in [5e-324, 1e-310, 1e-200, 1.0, 1e200] {
             for p in directions().into_iter().map(|d| d * size).filter(|&p| p != DVec3::ZERO) {
                 let seen = seen_event(p, v);
                 assert!(seen.x.is_finite() && seen.t.is_finite(), "{p:?} {v:?}");
-                assert!(contracted(p, v).is_finite() && flight_time(p, v).is_finite(), "{p:?} {v:?}");
+                assert!(
+                    contracted(p, v).is_finite() && flight_time(p, v).is_finite(),
+                    "{p:?} {v:?}"
+                );
                 let doppler = doppler_at(p, v);
                 assert!(doppler.is_finite() && doppler > 0.0, "{p:?} {v:?}");
                 near("unit", aberrate(p, v).length(), 1.0, rounding(1.0));
@@ -224,7 +232,9 @@ fn every_size_and_speed_gives_a_finite_answer() {
         }
         for p in [DVec3::new(f64::NAN, 0.0, 0.0), DVec3::new(0.0, f64::INFINITY, 1.0)] {
             assert!(seen_event(p, v).x.is_nan() && seen_event(p, v).t.is_nan());
-            assert!(doppler_at(p, v).is_nan() && flight_time(p, v).is_nan() && aberrate(p, v).is_nan());
+            assert!(
+                doppler_at(p, v).is_nan() && flight_time(p, v).is_nan() && aberrate(p, v).is_nan()
+            );
         }
     }
 }

@@ -26,14 +26,20 @@ use ugphysics::Velocity;
 #[track_caller]
 fn near(what: &str, got: f64, want: f64, tolerance: f64) {
     let error = (got - want).abs() / want.abs().max(1.0);
-    assert!(error <= tolerance, "{what}: got {got:?}, want {want:?}, off by {error:e} > {tolerance:e}");
+    assert!(
+        error <= tolerance,
+        "{what}: got {got:?}, want {want:?}, off by {error:e} > {tolerance:e}"
+    );
 }
 
 /// Fails unless `got` is within `tolerance` of `want`, relative to the length of `want`.
 #[track_caller]
 fn near_vector(what: &str, got: DVec3, want: DVec3, tolerance: f64) {
     let error = (got - want).length() / want.length();
-    assert!(error <= tolerance, "{what}: got {got:?}, want {want:?}, off by {error:e} > {tolerance:e}");
+    assert!(
+        error <= tolerance,
+        "{what}: got {got:?}, want {want:?}, off by {error:e} > {tolerance:e}"
+    );
 }
 
 fn beta(x: f64, y: f64, z: f64) -> Velocity {

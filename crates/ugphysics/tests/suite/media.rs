@@ -22,7 +22,10 @@ fn glass_at_rest_follows_fresnels_equations() {
     let one = (1.5_f64 * 1.5 - 1.0) / (1.5 * 1.5 + 1.0);
     let found = reflectance(Medium::VACUUM, glass, light(1.0, brewster), DVec3::Z);
     assert!((found - 0.5 * one * one).abs() < 1e-15, "{found}");
-    assert_eq!(reflectance(glass, Medium::VACUUM, light(1.5, DVec3::new(0.7, 0.0, 0.7)), DVec3::Z), 1.0);
+    assert_eq!(
+        reflectance(glass, Medium::VACUUM, light(1.5, DVec3::new(0.7, 0.0, 0.7)), DVec3::Z),
+        1.0
+    );
 }
 
 /// Media that move along their boundary, by the equations for fields, reflect as they do in their
@@ -30,7 +33,9 @@ fn glass_at_rest_follows_fresnels_equations() {
 #[test]
 fn a_boundary_that_slides_reflects_as_at_rest() {
     for (before, behind) in [(1.0, 1.5), (1.33, 1.5), (1.7, 1.2), (1.5, 1.0)] {
-        for toward in [DVec3::new(0.1, 0.0, 1.0), DVec3::new(0.3, -0.2, 1.0), DVec3::new(-0.4, 0.1, 0.8)] {
+        for toward in
+            [DVec3::new(0.1, 0.0, 1.0), DVec3::new(0.3, -0.2, 1.0), DVec3::new(-0.4, 0.1, 0.8)]
+        {
             let light = light(before, toward);
             let [first, second] = [at_rest(before), at_rest(behind)];
             let expected = reflectance(first, second, light, DVec3::Z);

@@ -8,9 +8,9 @@ use std::path::Path;
 use glam::DVec3;
 use ugphysics::spectrum::{Spectrum, planck};
 use ugphysics::{
-    Brightness, Event, HyperbolicMotion, Medium, Velocity, WaveVector, WorldLine, aberrate, compose,
-    contracted, doppler_at, doppler_factor, flight_time, observer_shift, rest_position, seen_position,
-    srgb_encode, wigner_rotation,
+    Brightness, Event, HyperbolicMotion, Medium, Velocity, WaveVector, WorldLine, aberrate,
+    compose, contracted, doppler_at, doppler_factor, flight_time, observer_shift, rest_position,
+    seen_position, srgb_encode, wigner_rotation,
 };
 
 use crate::illumination::{irradiance, light_on};
@@ -240,14 +240,14 @@ fn questions_of_the_conformance_suite_are_answered() {
         let text = fs::read_to_string(entry.unwrap().path()).unwrap();
         for line in text.lines().filter(|line| !line.starts_with('#')) {
             let columns: Vec<&str> = line.split('\t').collect();
-            let numbers = |text: &str| -> Vec<f64> { text.split(' ').map(|x| x.parse().unwrap()).collect() };
+            let numbers =
+                |text: &str| -> Vec<f64> { text.split(' ').map(|x| x.parse().unwrap()).collect() };
             let (kind, given) = columns[1].split_once(' ').unwrap();
             let Some(found) = answer(kind, &numbers(given)) else { continue };
             let (expected, tolerance) = (numbers(columns[2]), columns[3].parse::<f64>().unwrap());
             let tolerance = match kind {
-                "approach_speed" | "recession_speed" | "transverse_speed" | "rod_extent" | "cube_abeam" => {
-                    tolerance.max(FROM_AFAR)
-                }
+                "approach_speed" | "recession_speed" | "transverse_speed" | "rod_extent"
+                | "cube_abeam" => tolerance.max(FROM_AFAR),
                 _ => tolerance,
             };
             assert_eq!(found.len(), expected.len(), "{line}");
@@ -276,7 +276,10 @@ fn doppler_at_a_trillionth_below_light() {
 #[test]
 fn the_law_of_the_report_is_the_default() {
     for doppler in [19.0_f64.sqrt(), 0.19_f64.sqrt()] {
-        assert_eq!([Brightness::Report, Brightness::None].map(|law| law.factor(doppler)), [doppler, 1.0]);
+        assert_eq!(
+            [Brightness::Report, Brightness::None].map(|law| law.factor(doppler)),
+            [doppler, 1.0]
+        );
     }
     assert_eq!(Brightness::default(), Brightness::Report);
 }

@@ -15,8 +15,9 @@ fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
         let [a, b, c] = begins;
         [[a, b], [b, c]].map(|[from, to]| Piece { of: random.in_ball(most), from, to })
     };
-    let always =
-        |random: &mut Random| [Piece { of: random.in_ball(0.6), from: f64::NEG_INFINITY, to: f64::INFINITY }];
+    let always = |random: &mut Random| {
+        [Piece { of: random.in_ball(0.6), from: f64::NEG_INFINITY, to: f64::INFINITY }]
+    };
     let world_line = match kind % 7 {
         0 => WorldLine::accelerated(at, velocity, &pieces(random, 0.5), &[]),
         1 => WorldLine::accelerated(at, velocity, &[], &always(random)),
@@ -38,14 +39,16 @@ fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
         5 => {
             let rows = [0.0, 1.5, 2.7, 4.5, 5.0, 6.2, 8.0, 9.0].map(|passed: f64| {
                 let x = at + passed * velocity.beta() * 0.5;
-                let bend = DVec3::new(libm::sin(0.6 * passed), libm::cos(0.5 * passed), 0.1 * passed);
+                let bend =
+                    DVec3::new(libm::sin(0.6 * passed), libm::cos(0.5 * passed), 0.1 * passed);
                 Event { t: begins[0] + passed, x: x + 0.5 * bend }
             });
             let spin = if kind.is_multiple_of(2) { &[][..] } else { &pieces(random, 0.2) };
             WorldLine::along(at, SampledPath::new(&rows).unwrap(), spin)
         }
         _ => {
-            let disc = WorldLine::accelerated(at, velocity, &pieces(random, 0.1), &always(random)).unwrap();
+            let disc = WorldLine::accelerated(at, velocity, &pieces(random, 0.1), &always(random))
+                .unwrap();
             disc.with_part(at + random.in_ball(0.3), &pieces(random, 0.3))
         }
     };
@@ -81,9 +84,16 @@ fn a_ray_meets_what_is_seen_along_it() {
                             found = Some(met);
                             // Rounding of events, carried to the frame of the body.
                             let gamma = seen.velocity.gamma();
-                            let tolerance = 1e-13 * gamma * gamma * (9.0 + way.length() + observer.t.abs());
-                            assert!((met.point - point).length() < tolerance, "{kind}: {met:?} {point}");
-                            assert!((met.s - 1.0).abs() * way.length() < tolerance, "{kind}: {met:?}");
+                            let tolerance =
+                                1e-13 * gamma * gamma * (9.0 + way.length() + observer.t.abs());
+                            assert!(
+                                (met.point - point).length() < tolerance,
+                                "{kind}: {met:?} {point}"
+                            );
+                            assert!(
+                                (met.s - 1.0).abs() * way.length() < tolerance,
+                                "{kind}: {met:?}"
+                            );
                         }
                         check_curve(stretch, range);
                         ControlFlow::Continue(())
@@ -106,8 +116,12 @@ fn check_curve(stretch: &ugphysics::RayStretch<'_>, range: std::ops::Range<f64>)
         let [before, here, behind] = [-step, 0.0, step].map(|change| stretch.at(at(part) + change));
         let slope = (behind.point - before.point) / (2.0 * step);
         let bend = (behind.point + before.point - 2.0 * here.point).length() / (step * step);
-        assert!((slope - here.derivative).length() < 1e-4 * (1.0 + slope.length()), "{slope} {here:?}");
-        let bound = stretch.bend([(at(part) - step, before.point), (at(part) + step, behind.point)]);
+        assert!(
+            (slope - here.derivative).length() < 1e-4 * (1.0 + slope.length()),
+            "{slope} {here:?}"
+        );
+        let bound =
+            stretch.bend([(at(part) - step, before.point), (at(part) + step, behind.point)]);
         assert!(bend <= bound * 1.001 + 1e-3, "{bend} {bound}");
     }
     let half = range.start.midpoint(range.end);
@@ -130,12 +144,14 @@ fn light_of_triangles_is_within_its_bounds() {
         let (world_line, at) = motion(&mut random, kind);
         let middle = at + random.in_ball(0.7);
         let observer = Event { t: random.between(-9.0, 9.0), x: random.in_ball(9.0) };
-        let tube = world_line.tube([at - DVec3::splat(0.5), at + DVec3::splat(0.5)].into_iter()).unwrap();
+        let tube =
+            world_line.tube([at - DVec3::splat(0.5), at + DVec3::splat(0.5)].into_iter()).unwrap();
         let passages = world_line.smooth_stretches(&tube, observer).unwrap();
         for size in [1e-4, 1e-3, 1e-2, 0.05, 0.2] {
             let corners = [(); 3].map(|()| middle + random.in_ball(size));
             let seen = corners.map(|point| (point, world_line.light(point, observer).unwrap()));
-            let Some(bounds) = world_line.seen_triangle(&tube, &passages, &seen, observer, kind as u32 % 3)
+            let Some(bounds) =
+                world_line.seen_triangle(&tube, &passages, &seen, observer, kind as u32 % 3)
             else {
                 n_none += 1;
                 continue;
@@ -143,11 +159,16 @@ fn light_of_triangles_is_within_its_bounds() {
             let mut most = 0.0_f64;
             for _ in 0..60 {
                 let (u, v) = (random.unit(), random.unit());
-                let weights = if u + v < 1.0 { [1.0 - u - v, u, v] } else { [u + v - 1.0, 1.0 - u, 1.0 - v] };
-                let mean = |of: [DVec3; 3]| weights[0] * of[0] + weights[1] * of[1] + weights[2] * of[2];
+                let weights =
+                    if u + v < 1.0 { [1.0 - u - v, u, v] } else { [u + v - 1.0, 1.0 - u, 1.0 - v] };
+                let mean =
+                    |of: [DVec3; 3]| weights[0] * of[0] + weights[1] * of[1] + weights[2] * of[2];
                 let light = world_line.emission(mean(corners), observer).unwrap();
                 let deviation = (light.event.x - mean(seen.map(|(_, seen)| seen.event.x))).length();
-                assert!(bounds.own_times.contains(&light.own_time), "{kind} {size}: {bounds:?} {light:?}");
+                assert!(
+                    bounds.own_times.contains(&light.own_time),
+                    "{kind} {size}: {bounds:?} {light:?}"
+                );
                 assert!(deviation <= bounds.deviation, "{kind} {size}: {bounds:?} {deviation}");
                 most = most.max(deviation / bounds.deviation);
             }
@@ -160,5 +181,8 @@ fn light_of_triangles_is_within_its_bounds() {
             }
         }
     }
-    assert!(n_close > n_small / 2 && n_none < n_small, "{n_none} {n_close} of {n_small}, {closest}");
+    assert!(
+        n_close > n_small / 2 && n_none < n_small,
+        "{n_none} {n_close} of {n_small}, {closest}"
+    );
 }

@@ -29,7 +29,10 @@ impl Worst {
             raise(&mut self.rest, relative_vector_error(rest_position(p, v), &exact.rest(p)));
             raise(&mut self.doppler, relative_error(doppler_factor(p, v), &exact.doppler(p)));
             raise(&mut self.doppler_at, relative_error(doppler_at(p, v), &exact.doppler(-p)));
-            raise(&mut self.flight, relative_error(flight_time(p, v), &exact.flight_time(&vector(p))));
+            raise(
+                &mut self.flight,
+                relative_error(flight_time(p, v), &exact.flight_time(&vector(p))),
+            );
             self.n_cases += 1;
         }
     }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use ugphysics::{
-    Event, HyperbolicMotion, InertialFrame, Piece, SampledPath, Velocity, WorldLine, WorldLineError as Error,
+    Event, HyperbolicMotion, InertialFrame, Piece, SampledPath, Velocity, WorldLine,
+    WorldLineError as Error,
 };
 
 fn table(rows: impl Iterator<Item = Event>) -> SampledPath {
@@ -25,11 +26,15 @@ fn a_sampled_hyperbola_is_constant_acceleration() {
         let mut worst = 0.0_f64;
         for step in 0..97 {
             let observer = Event { t: 1.0 + f64::from(step) / 23.0, x: DVec3::new(0.7, -0.9, 1.0) };
-            let [found, expected] = [&line, &exact].map(|line| line.emission(DVec3::ZERO, observer).unwrap());
+            let [found, expected] =
+                [&line, &exact].map(|line| line.emission(DVec3::ZERO, observer).unwrap());
             assert!(expected.event.t.abs() < 4.0, "{expected:?}");
             worst = worst.max((found.event.x - expected.event.x).length());
             let velocity = (found.velocity.beta() - expected.velocity.beta()).length();
-            assert!(velocity < 40.0 / (f64::from(n) * f64::from(n) * f64::from(n)), "{n}: {velocity:e}");
+            assert!(
+                velocity < 40.0 / (f64::from(n) * f64::from(n) * f64::from(n)),
+                "{n}: {velocity:e}"
+            );
         }
         worst
     };
@@ -37,7 +42,8 @@ fn a_sampled_hyperbola_is_constant_acceleration() {
         let time = |k: f64| 2.0 * k / f64::from(n) - 1.0;
         let event = |t: f64| HyperbolicMotion { acceleration }.event(libm::asinh(0.5 * t) / 0.5);
         let line =
-            WorldLine::along(DVec3::ZERO, table((0..=n).map(|k| event(time(f64::from(k))))), &[]).unwrap();
+            WorldLine::along(DVec3::ZERO, table((0..=n).map(|k| event(time(f64::from(k))))), &[])
+                .unwrap();
         let error = |k: u32| {
             // Seen from its own place.
             let expected = event(time(f64::from(k) / 8.0));
@@ -83,8 +89,12 @@ fn axes_on_a_sampled_circle_turn_back() {
     let start = exact.event(3.0 * DVec3::X, 0.0).unwrap();
     let begin = line.at_event(start).unwrap().1;
     let [first, last] = [begin, begin + round].map(|own_time| line.pose(own_time));
-    assert!((last.event.x - first.event.x).length() < 1e-9 && (first.event - start).x.length() < 1e-9);
-    let x = (first.scene_from_axes.inverse() * last.scene_from_axes).apply(Event { t: 0.0, x: DVec3::X }).x;
+    assert!(
+        (last.event.x - first.event.x).length() < 1e-9 && (first.event - start).x.length() < 1e-9
+    );
+    let x = (first.scene_from_axes.inverse() * last.scene_from_axes)
+        .apply(Event { t: 0.0, x: DVec3::X })
+        .x;
     // The axes have turned before, but in the same plane.
     let angle = libm::atan2(x.y, x.x);
     assert!((angle + 1.8482450685542).abs() < 1e-8, "{angle}");

@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use ugphysics::spectrum::{
-    DopplerGrid, LightSpectrum, Reflectance, SmoothCurve, Spectrum, daylight, integrate, observer, planck,
+    DopplerGrid, LightSpectrum, Reflectance, SmoothCurve, Spectrum, daylight, integrate, observer,
+    planck,
 };
 use ugphysics::{linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 
@@ -31,7 +32,9 @@ fn check(found: [f64; 3], expected: [f64; 3], tolerance: f64) {
 fn surfaces(n_levels: i32) -> Vec<[f64; 3]> {
     let level = |row: i32| srgb_decode(f64::from(row) / f64::from(n_levels - 1));
     let row = || 0..n_levels;
-    row().flat_map(|r| row().flat_map(move |g| row().map(move |b| [level(r), level(g), level(b)]))).collect()
+    row()
+        .flat_map(|r| row().flat_map(move |g| row().map(move |b| [level(r), level(g), level(b)])))
+        .collect()
 }
 
 #[test]
@@ -101,7 +104,8 @@ fn a_black_body_stays_a_black_body() {
             check(hot, plain.map(|part| part / rest), 1e-9);
         }
     }
-    let samples: Vec<[f64; 2]> = (100..3000).map(f64::from).map(|nm| [nm, planck(nm, 5000.0)]).collect();
+    let samples: Vec<[f64; 2]> =
+        (100..3000).map(f64::from).map(|nm| [nm, planck(nm, 5000.0)]).collect();
     let hot = Spectrum::samples(&samples).seen(1.6);
     check(hot, Spectrum::samples(&samples).shifted(1.6).map(|part| part * 10.48576), 1e-12);
     let body = Spectrum::blackbody(5000.0, integrate(|nm| planck(nm, 5000.0))[1]);
@@ -114,8 +118,8 @@ fn a_narrow_line_gives_the_observers_response() {
     let line = Spectrum::samples(&[[499.99, 0.0], [500.0, 100.0], [500.01, 0.0]]);
     for doppler in [0.7, 0.9, 1.0, 1.2] {
         // λ and the width of the line are both divided by D, which leaves D⁴.
-        let expected =
-            observer(500.0 / doppler).map(|part| part * doppler * doppler * doppler * doppler / 106.856917);
+        let expected = observer(500.0 / doppler)
+            .map(|part| part * doppler * doppler * doppler * doppler / 106.856917);
         check(line.seen(doppler), expected, 2e-3);
     }
     assert_eq!(line.seen(2.0), [0.0; 3]);
@@ -127,8 +131,9 @@ fn a_narrow_line_gives_the_observers_response() {
 #[test]
 fn tables_approximate_the_spectra() {
     let surfaces = surfaces(5).into_iter().map(|rgb| (Spectrum::from_linear_srgb(rgb), 3e-4));
-    let bodies =
-        [1000.0, 6000.0, 40_000.0].into_iter().map(|kelvin| (Spectrum::blackbody(kelvin, 2.0), 3e-7));
+    let bodies = [1000.0, 6000.0, 40_000.0]
+        .into_iter()
+        .map(|kelvin| (Spectrum::blackbody(kelvin, 2.0), 3e-7));
     let grid = DopplerGrid::new(-2.4..=2.4);
     for (spectrum, tolerance) in surfaces.chain(bodies) {
         let table = grid.table();
@@ -137,7 +142,8 @@ fn tables_approximate_the_spectra() {
             let ln = -2.4 + 0.01 * (f64::from(row) + 0.5 - 0.3 * f64::from(row % 2));
             let exact = spectrum.shifted(libm::exp(ln));
             let largest = exact.into_iter().fold(0.0, f64::max);
-            for found in [table.xyz(ln, |idx| grid.ln_xyz(&spectrum, idx)), grid.xyz(&spectrum, ln)] {
+            for found in [table.xyz(ln, |idx| grid.ln_xyz(&spectrum, idx)), grid.xyz(&spectrum, ln)]
+            {
                 let is_near = |(a, b): (f64, f64)| (a - b).abs() <= tolerance * largest;
                 assert!(found.into_iter().zip(exact).all(is_near), "{found:?} is not {exact:?}");
             }
@@ -198,7 +204,10 @@ fn few_nodes_are_enough() {
                 let seen = surface.under(&light, doppler, light_doppler).unwrap();
                 let most = tolerance * exact[0].max(exact[1]).max(exact[2]);
                 let is_near = seen.iter().zip(exact).all(|(a, b)| (a - b).abs() <= most);
-                assert!(is_near, "{surface:?} {light:?} {doppler} {light_doppler}: {seen:?} {exact:?}");
+                assert!(
+                    is_near,
+                    "{surface:?} {light:?} {doppler} {light_doppler}: {seen:?} {exact:?}"
+                );
             }
         }
     }
@@ -250,8 +259,10 @@ fn light_beyond_the_range_of_numbers_keeps_its_hue() {
         let cold = Spectrum::blackbody(kelvin, 1.0);
         let same = chromaticity(Spectrum::blackbody(kelvin * doppler, 1.0).seen(1.0));
         let gain = libm::pow(doppler, 5.0);
-        let table =
-            grid.table().xyz(libm::log(doppler), |idx| grid.ln_xyz(&cold, idx)).map(|part| part * gain);
+        let table = grid
+            .table()
+            .xyz(libm::log(doppler), |idx| grid.ln_xyz(&cold, idx))
+            .map(|part| part * gain);
         // As a lamp on white.
         let (lamp, white) = (LightSpectrum::new(&cold), SmoothCurve::new(|_| 1.0));
         assert!((lamp.seen_through(&white, 1.0)[1] - 1.0).abs() < 1e-9, "{kelvin}");
@@ -259,7 +270,10 @@ fn light_beyond_the_range_of_numbers_keeps_its_hue() {
         for (seen, tolerance) in [(cold.seen(doppler), 1e-12), (table, 1e-4), (lit, 1e-9)] {
             assert!(seen.iter().all(|part| *part < f64::from(f32::MAX) / 100.0), "{seen:?}");
             let off = [0, 1].map(|k| (chromaticity(seen)[k] - same[k]).abs());
-            assert!(off[0] < tolerance && off[1] < tolerance, "{kelvin} {doppler}: {seen:?} {same:?}");
+            assert!(
+                off[0] < tolerance && off[1] < tolerance,
+                "{kelvin} {doppler}: {seen:?} {same:?}"
+            );
         }
     }
     let [x, y, z] = Spectrum::blackbody(2.725, 1.0).seen(1218.7 / 2.725);

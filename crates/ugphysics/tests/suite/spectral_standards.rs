@@ -32,10 +32,15 @@ fn the_observer_is_that_of_the_cie() {
         check(sum, expected, 1e-6);
     }
     // The spectrum locus, CIE 15 table T.5.
-    for (nm, xy) in [(460.0, [0.14396, 0.02970]), (520.0, [0.07430, 0.83380]), (600.0, [0.62704, 0.37249])] {
+    for (nm, xy) in
+        [(460.0, [0.14396, 0.02970]), (520.0, [0.07430, 0.83380]), (600.0, [0.62704, 0.37249])]
+    {
         check_xy(observer(nm), xy, 6e-6);
     }
-    assert_eq!((observer(555.0)[1], observer(359.9), observer(f64::NAN)), (1.0, [0.0; 3], [0.0; 3]));
+    assert_eq!(
+        (observer(555.0)[1], observer(359.9), observer(f64::NAN)),
+        (1.0, [0.0; 3], [0.0; 3])
+    );
     check(observer(555.25)[0], 0.75 * observer(555.0)[0] + 0.25 * observer(556.0)[0], 1e-15);
 }
 
@@ -82,7 +87,11 @@ fn plancks_law() {
     assert!(slope(499.6158543 - 0.01) > 0.0 && slope(499.6158543 + 0.01) < 0.0);
     // The integral is σT⁴/π (Stefan–Boltzmann law).
     let whole: f64 = (1..200_000).map(|row| planck(f64::from(row) * 0.5, 5800.0) * 0.5).sum();
-    check(whole / (5.670374419e-8 * 5800.0_f64 * 5800.0 * 5800.0 * 5800.0 / std::f64::consts::PI), 1.0, 1e-4);
+    check(
+        whole / (5.670374419e-8 * 5800.0_f64 * 5800.0 * 5800.0 * 5800.0 / std::f64::consts::PI),
+        1.0,
+        1e-4,
+    );
 }
 
 /// CIE illuminant A, which is a black body.

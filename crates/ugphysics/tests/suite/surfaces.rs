@@ -3,8 +3,8 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use ugphysics::{
-    Event, HyperbolicMotion, Lorentz, Medium, Velocity, WaveVector, contracted, doppler_at, elongated,
-    seen_position,
+    Event, HyperbolicMotion, Lorentz, Medium, Velocity, WaveVector, contracted, doppler_at,
+    elongated, seen_position,
 };
 
 use crate::{near, near_vector};

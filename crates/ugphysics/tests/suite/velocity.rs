@@ -43,7 +43,9 @@ fn the_bound_at_light_speed_is_exact() {
             n_above += 1
         }
         if let Ok(v) = got {
-            assert!(relative_error(v.gamma(), &BigVelocity::from_beta(direction).gamma()) <= FEW_ULP);
+            assert!(
+                relative_error(v.gamma(), &BigVelocity::from_beta(direction).gamma()) <= FEW_ULP
+            );
         }
     }
     assert!(n_below >= 5 && n_above >= 10, "{n_below} below, {n_above} above");

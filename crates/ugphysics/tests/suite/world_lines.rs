@@ -1,7 +1,9 @@
 //! World lines: laws. Published numbers are in `numbers.rs`.
 
 use glam::DVec3;
-use ugphysics::{Event, InertialFrame, Lorentz, Piece, SampledPath, Velocity, WorldLine, doppler_at};
+use ugphysics::{
+    Event, InertialFrame, Lorentz, Piece, SampledPath, Velocity, WorldLine, doppler_at,
+};
 
 pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -40,7 +42,10 @@ fn axes_on_an_orbit_turn_back() {
     let turn = start.inverse() * end;
     let x = turn.apply(Event { t: 0.0, x: DVec3::X }).x;
     let angle = libm::atan2(x.y, x.x);
-    assert!((gamma - 2.294157338706).abs() < 1e-12 && (angle + 1.8482450685542).abs() < 1e-11, "{angle}");
+    assert!(
+        (gamma - 2.294157338706).abs() < 1e-12 && (angle + 1.8482450685542).abs() < 1e-11,
+        "{angle}"
+    );
 }
 
 /// A stretch of acceleration in two pieces is the same stretch, and light leaves on the light cone
@@ -107,8 +112,10 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
                 line.event(point - h * d, own_time).unwrap(),
             )
         };
-        let rate =
-            difference(line.event(point, own_time + h).unwrap(), line.event(point, own_time - h).unwrap());
+        let rate = difference(
+            line.event(point, own_time + h).unwrap(),
+            line.event(point, own_time - h).unwrap(),
+        );
         let velocity = Velocity::from_beta(rate.x / rate.t).unwrap();
         let to_element = Lorentz::boost(velocity).inverse();
         for direction in [first, second] {
@@ -130,14 +137,20 @@ fn impossible_motions_are_refused() {
     };
     let x = [1.0, 0.0, 0.0];
     assert_eq!(refused(&[piece(x, [2.0, 1.0])], &[]), Error::EmptyPiece { piece: [2.0, 1.0] });
-    assert_eq!(refused(&[piece(x, [0.0, 2.0]), piece(x, [1.0, 3.0])], &[]), Error::Overlap { from: 1.0 });
+    assert_eq!(
+        refused(&[piece(x, [0.0, 2.0]), piece(x, [1.0, 3.0])], &[]),
+        Error::Overlap { from: 1.0 }
+    );
     assert_eq!(refused(&[piece([f64::NAN, 0.0, 0.0], [0.0, 1.0])], &[]), Error::NotFinite);
     assert!(matches!(refused(&[piece(x, [0.0, 1e6])], &[]), Error::TooLong { .. }));
     let observer = Event { t: 0.0, x: DVec3::ZERO };
     let disc = moving([0.0; 3], [0.0; 3], &[], &[piece([0.0, 0.0, 0.5], ALWAYS)]);
     assert!(matches!(disc.emission(2.0 * DVec3::X, observer), Err(Error::Horizon { .. })));
     let ship = moving([0.0; 3], [0.0; 3], &[piece(x, [0.0, 1.0])], &[]);
-    assert!(matches!(ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }), Err(Error::Horizon { .. })));
+    assert!(matches!(
+        ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }),
+        Err(Error::Horizon { .. })
+    ));
     let orbit = |at, center, axis, rate| WorldLine::orbiting(at, center, axis, rate, &[]);
     assert!(matches!(orbit(DVec3::X, DVec3::ZERO, DVec3::Z, 1.0), Err(Error::Velocity(_))));
     assert_eq!(orbit(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.5), Err(Error::NoAxis));
@@ -161,8 +174,10 @@ fn motions() -> Vec<WorldLine> {
     let center = DVec3::new(-3.0, 1.0, 0.0);
     let pushed = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &push, &[]);
     let both = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &push, &spin);
-    let wheel = both.with_part(DVec3::new(0.5, 0.4, 0.0), &[piece([0.0, 0.3, 0.0], [0.0, 9.0])]).unwrap();
-    let moon = WorldLine::orbiting(0.2 * DVec3::X, center, DVec3::new(0.1, 0.2, 1.0), 0.2, &spin).unwrap();
+    let wheel =
+        both.with_part(DVec3::new(0.5, 0.4, 0.0), &[piece([0.0, 0.3, 0.0], [0.0, 9.0])]).unwrap();
+    let moon =
+        WorldLine::orbiting(0.2 * DVec3::X, center, DVec3::new(0.1, 0.2, 1.0), 0.2, &spin).unwrap();
     vec![
         pushed,
         both,
@@ -172,7 +187,9 @@ fn motions() -> Vec<WorldLine> {
         moving([0.0; 3], [0.5, 0.0, 0.0], &[], &spin),
         WorldLine::along(DVec3::X * 0.1, curve(), &[]).unwrap(),
         WorldLine::along(DVec3::X * 0.1, curve(), &spin).unwrap(),
-        WorldLine::inertial(InertialFrame::new(Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap())),
+        WorldLine::inertial(InertialFrame::new(
+            Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap(),
+        )),
     ]
 }
 
@@ -205,8 +222,9 @@ fn events_are_of_the_points_that_are_there() {
             let scale = 1.0 + event.t.abs();
             assert!((time - own_time).abs() < 1e-13 * scale, "{time} {own_time}");
             assert!((point_there - point).length() < 1e-13 * scale, "{point_there} {point}");
-            let seen =
-                motion.emission(point, Event { t: event.t + 5.0, x: event.x + 5.0 * DVec3::Y }).unwrap();
+            let seen = motion
+                .emission(point, Event { t: event.t + 5.0, x: event.x + 5.0 * DVec3::Y })
+                .unwrap();
             assert!((seen.own_time - own_time).abs() < 1e-12 * scale);
             // A spin begins and ends with a jerk.
             if [-2.0, 0.0, 1.5, 2.0, 6.0, 9.0].contains(&own_time) {
@@ -214,7 +232,8 @@ fn events_are_of_the_points_that_are_there() {
             }
             assert!((seen.velocity.beta() - velocity.beta()).length() < 1e-12);
             // The velocity is the derivative of the event.
-            let [early, late] = [-1e-5, 1e-5].map(|step| motion.event(point, own_time + step).unwrap());
+            let [early, late] =
+                [-1e-5, 1e-5].map(|step| motion.event(point, own_time + step).unwrap());
             let slope = (late.x - early.x) / (late.t - early.t);
             assert!((velocity.beta() - slope).length() < 1e-8, "{slope}");
         }
@@ -249,7 +268,8 @@ fn what_is_seen_does_not_depend_on_the_frame() {
 /// A part that does not spin is the body; a wheel that turns with its car is part of it.
 #[test]
 fn parts_move_with_their_body() {
-    let car = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &[piece([0.3, 0.0, 0.1], [-2.0, 1.5])], &[]);
+    let car =
+        moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &[piece([0.3, 0.0, 0.1], [-2.0, 1.5])], &[]);
     assert_eq!(car.with_part(DVec3::X, &[]).unwrap(), car);
     let wheel = car.with_part(DVec3::X, &[piece([0.0, 0.0, 0.5], [0.0, 4.0])]).unwrap();
     let hub = wheel.event(DVec3::X, 3.0).unwrap();
@@ -263,7 +283,8 @@ fn parts_move_with_their_body() {
 #[test]
 fn the_rim_of_a_spin_and_the_horizon_of_an_acceleration_are_limits() {
     let always = |of: DVec3| piece(of.into(), ALWAYS);
-    let spin = WorldLine::accelerated(DVec3::X, Velocity::ZERO, &[], &[always(DVec3::Z * 0.5)]).unwrap();
+    let spin =
+        WorldLine::accelerated(DVec3::X, Velocity::ZERO, &[], &[always(DVec3::Z * 0.5)]).unwrap();
     assert_eq!(spin.check(DVec3::new(2.999, 0.0, 7.0)), Ok(()));
     assert!(spin.check(DVec3::new(3.0, 0.0, 0.0)).is_err());
     let push = Piece { of: DVec3::X * 0.25, from: 1.0, to: 2.0 };
@@ -303,7 +324,9 @@ fn doppler_factors_are_found_from_places_at_every_rapidity() {
     // Turned into the y axis, with an origin elsewhere, in a frame in motion.
     let turn = Lorentz::rotation(glam::DQuat::from_rotation_arc(DVec3::X, DVec3::Y));
     let shift = Event { t: 1.0, x: DVec3::new(2.0, -1.0, 0.5) };
-    for (row, line) in [whole.clone(), two, cut(&many), whole.in_frame(turn, shift)].into_iter().enumerate() {
+    for (row, line) in
+        [whole.clone(), two, cut(&many), whole.in_frame(turn, shift)].into_iter().enumerate()
+    {
         let start = line.pose(0.0).event;
         let ahead = line.pose(0.0).scene_from_axes.apply(Event { t: 0.0, x: DVec3::X }).x;
         for gap in [0.5, 1.0, 2.0, 60.0, 71.0, 81.0, 101.0, 1e3, 1e5, 1e7, 1e8] {
@@ -316,10 +339,15 @@ fn doppler_factors_are_found_from_places_at_every_rapidity() {
                 let rounding = 1e-12 + 1e-15 * gap * gap;
                 let close = |doppler: f64, allowed: f64| (doppler / exact - 1.0).abs() <= allowed;
                 let of_time = if is_leaving { 1e-13 } else { rounding };
-                assert!(close(1.0 / light.inverse_doppler, of_time), "{row} {gap} {is_leaving} {light:?}");
+                assert!(
+                    close(1.0 / light.inverse_doppler, of_time),
+                    "{row} {gap} {is_leaving} {light:?}"
+                );
                 let way = light.event.x - observer.x;
                 let on_cone = observer + Event { t: -way.length(), x: way };
-                let Ok((point, own_time)) = line.at_event(on_cone) else { panic!("{row} {gap} {light:?}") };
+                let Ok((point, own_time)) = line.at_event(on_cone) else {
+                    panic!("{row} {gap} {light:?}")
+                };
                 let doppler = doppler_at(way, line.velocity(point, own_time).unwrap());
                 assert!(close(doppler, rounding), "{row} {gap} {is_leaving}: {doppler} {exact}");
                 assert!(way.dot(ahead) >= 0.0 && own_time.abs() < 50.0);
@@ -340,11 +368,17 @@ fn own_times_at_a_time_of_the_scene() {
             for offset in [DVec3::ZERO, DVec3::new(3.0, -500.0, 20.0)] {
                 let event = Event { t: at.t, x: at.x + offset };
                 let found = line.own_time_when(event, Lorentz::IDENTITY);
-                assert!((found - own_time).abs() < 1e-12 * (1.0 + at.t.abs()), "{found} {own_time}");
+                assert!(
+                    (found - own_time).abs() < 1e-12 * (1.0 + at.t.abs()),
+                    "{found} {own_time}"
+                );
                 let frame = Lorentz::boost(camera);
                 let seen = line.in_frame(frame.inverse(), origin);
                 let found = seen.own_time_when(frame.inverse().apply(event - origin), frame);
-                assert!((found - own_time).abs() < 1e-11 * (1.0 + at.t.abs()), "{found} {own_time}");
+                assert!(
+                    (found - own_time).abs() < 1e-11 * (1.0 + at.t.abs()),
+                    "{found} {own_time}"
+                );
             }
         }
     }

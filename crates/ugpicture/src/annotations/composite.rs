@@ -52,7 +52,11 @@ impl Annotations {
                         let [red, green, blue] = light.map(|part| quantizer.level(part));
                         [red, green, blue, 255]
                     });
-                    frame = Frame::new(self.size, frame.is_opaque(), self.larger(frame.pixels(), strip));
+                    frame = Frame::new(
+                        self.size,
+                        frame.is_opaque(),
+                        self.larger(frame.pixels(), strip),
+                    );
                 }
                 self.strips.paint(&mut frame);
                 Image::Display(frame)
@@ -60,10 +64,14 @@ impl Annotations {
             Image::Light(mut frame) => {
                 self.over.paint_light(&mut frame);
                 if self.has_strips() {
-                    let strip =
-                        self.background.map_or([0.0; 4], |[red, green, blue]| [red, green, blue, 0.0]);
-                    frame =
-                        LinearFrame::new(self.size, frame.is_opaque(), self.larger(frame.pixels(), strip));
+                    let strip = self
+                        .background
+                        .map_or([0.0; 4], |[red, green, blue]| [red, green, blue, 0.0]);
+                    frame = LinearFrame::new(
+                        self.size,
+                        frame.is_opaque(),
+                        self.larger(frame.pixels(), strip),
+                    );
                 }
                 self.strips.paint_light(&mut frame);
                 Image::Light(frame)

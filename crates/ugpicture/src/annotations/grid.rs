@@ -38,7 +38,8 @@ pub fn draw<E: From<Error>>(
         let [low, high] = grid.ends[1 - axis];
         [low, high].map(|across| grid.point(axis, number, across) - seen.view.eye)
     };
-    let both = [0, 1].into_iter().flat_map(|axis| grid.numbers(axis).map(move |number| (axis, number)));
+    let both =
+        [0, 1].into_iter().flat_map(|axis| grid.numbers(axis).map(move |number| (axis, number)));
     let lines = seen.visible(seen.scene.clone(), &both.map(line).collect::<Vec<_>>())?;
     drawing.lines(lines.clone(), style.hairline, style.faint);
     let mut labels = Labels { grid: &grid, seen, visible: &lines, style, boxes: Vec::new() };
@@ -69,17 +70,25 @@ impl GroundGrid {
         let depth = depth(seen, level);
         let [left, right] = [0.0, seen.size[0]].map(|column| seen.view.point([column, 0.0], depth));
         let factor = unit.as_ref().map_or(1.0, |unit| unit.factor);
-        let step = round_step(factor * ((right - left).length() / SQUARES).max(longest / MOST)) / factor;
+        let step =
+            round_step(factor * ((right - left).length() / SQUARES).max(longest / MOST)) / factor;
         let ends = [[low.x, high.x], [low.y, high.y]]
             .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
         // Farther away, neighbouring lines cannot be distinguished.
         let is_near = ends.iter().flatten().all(|end| end.abs() < 1e9);
-        is_near.then(|| Self { step, level, ends: ends.map(|ends| ends.map(|end| end as i64)), unit })
+        is_near.then(|| Self {
+            step,
+            level,
+            ends: ends.map(|ends| ends.map(|end| end as i64)),
+            unit,
+        })
     }
 
     /// A length with its unit.
     fn written(&self, length: f64, digits: usize) -> String {
-        self.unit.as_ref().map_or_else(|| significant(length, digits), |unit| unit.written(length, digits))
+        self.unit
+            .as_ref()
+            .map_or_else(|| significant(length, digits), |unit| unit.written(length, digits))
     }
 
     fn numbers(&self, axis: usize) -> impl Iterator<Item = i64> + use<> {
@@ -91,7 +100,11 @@ impl GroundGrid {
     /// coordinates.
     fn point(&self, axis: usize, number: i64, across: i64) -> DVec3 {
         let (along, across) = (number as f64 * self.step, across as f64 * self.step);
-        if axis == 0 { DVec3::new(along, across, self.level) } else { DVec3::new(across, along, self.level) }
+        if axis == 0 {
+            DVec3::new(along, across, self.level)
+        } else {
+            DVec3::new(across, along, self.level)
+        }
     }
 }
 
@@ -105,7 +118,8 @@ fn is_free(place: [Point; 2], others: &[[Point; 2]]) -> bool {
 fn depth<E>(seen: &SeenScene<'_, E>, level: f64) -> f64 {
     let view = &seen.view;
     let [width, height] = seen.size;
-    let [near, far] = [1.0, 2.0].map(|depth| view.eye.z + view.point([0.5 * width, 0.75 * height], depth).z);
+    let [near, far] =
+        [1.0, 2.0].map(|depth| view.eye.z + view.point([0.5 * width, 0.75 * height], depth).z);
     let crossing = 1.0 + (level - near) / (far - near);
     if crossing > 0.0 && view.is_perspective { crossing.min(view.distance) } else { view.distance }
 }
@@ -141,8 +155,10 @@ impl<E: From<Error>> Labels<'_, E> {
         let [low, high] = grid.ends[1 - axis];
         let far = if near == low { high } else { low };
         let in_picture = |number: i64| {
-            let ends = [near, far].map(|across| grid.point(axis, number, across) - self.seen.view.eye);
-            in_picture(&self.seen.view, ends).map(|[end, other]| (number, end, other, end == ends[0]))
+            let ends =
+                [near, far].map(|across| grid.point(axis, number, across) - self.seen.view.eye);
+            in_picture(&self.seen.view, ends)
+                .map(|[end, other]| (number, end, other, end == ends[0]))
         };
         let mut lines: Vec<_> = grid.numbers(axis).filter_map(in_picture).collect();
         lines.sort_by(|(_, one, ..), (_, other, ..)| one.length().total_cmp(&other.length()));
@@ -185,7 +201,8 @@ impl<E: From<Error>> Labels<'_, E> {
         let ends = self.grid.ends;
         let middle = (ends[axis][0] + ends[axis][1]) / 2;
         let [low, high] = ends[1 - axis];
-        let distance = |across: i64| (self.grid.point(axis, middle, across) - self.seen.view.eye).length();
+        let distance =
+            |across: i64| (self.grid.point(axis, middle, across) - self.seen.view.eye).length();
         // Ties go to the edge with the greater coordinate.
         if distance(low) < distance(high) * (1.0 - 1e-9) { low } else { high }
     }
@@ -205,7 +222,13 @@ impl<E: From<Error>> Labels<'_, E> {
         low.iter().all(|edge| *edge >= 0.0) && (0..2).all(|i| high[i] <= self.seen.size[i])
     }
 
-    fn push(&mut self, line: &Line, [low, high]: [Point; 2], has_ground: bool, drawing: &mut Drawing) {
+    fn push(
+        &mut self,
+        line: &Line,
+        [low, high]: [Point; 2],
+        has_ground: bool,
+        drawing: &mut Drawing,
+    ) {
         self.boxes.push([low, high]);
         if has_ground {
             drawing.rectangle(low, high, self.style.background);
@@ -226,7 +249,8 @@ fn direction([left, top]: Point, [right, below]: Point) -> [f64; 2] {
 fn is_on([x, y]: Point, [[left, top], [right, below]]: [Point; 2]) -> bool {
     let (along, off) = ([right - left, below - top], [x - left, y - top]);
     let square = along[0] * along[0] + along[1] * along[1];
-    let part = ((off[0] * along[0] + off[1] * along[1]) / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let part =
+        ((off[0] * along[0] + off[1] * along[1]) / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     libm::hypot(off[0] - part * along[0], off[1] - part * along[1]) < 1.0
 }
 
@@ -236,10 +260,21 @@ mod tests {
 
     #[test]
     fn steps_are_round_and_not_less() {
-        let rows =
-            [(1.0, 1.0), (1.01, 2.0), (2.5, 5.0), (7.0, 10.0), (0.03, 0.05), (1000.0, 1000.0), (1e-7, 1e-7)];
+        let rows = [
+            (1.0, 1.0),
+            (1.01, 2.0),
+            (2.5, 5.0),
+            (7.0, 10.0),
+            (0.03, 0.05),
+            (1000.0, 1000.0),
+            (1e-7, 1e-7),
+        ];
         for (least, step) in rows {
-            assert!((round_step(least) / step - 1.0).abs() < 1e-12, "{least} {}", round_step(least));
+            assert!(
+                (round_step(least) / step - 1.0).abs() < 1e-12,
+                "{least} {}",
+                round_step(least)
+            );
         }
     }
 }

@@ -60,8 +60,9 @@ pub fn draw(
         let mut lines = Vec::new();
         for row in 1..height {
             for column in 1..width {
-                let corner =
-                    |right: usize, below: usize| seen[(row + below - 1) * width + column + right - 1];
+                let corner = |right: usize, below: usize| {
+                    seen[(row + below - 1) * width + column + right - 1]
+                };
                 let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
                 let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
                 let corners = [a, b, c, d];
@@ -79,7 +80,8 @@ pub fn draw(
         }
         let line = Line::new(&scale.written(value), TEXT * style.size)?;
         let half = [0.5 * line.width() + 0.15 * style.size, 0.45 * style.size];
-        let label = middle(&lines, [0, 1].map(|axis| half[axis]..f64::from(size[axis]) - half[axis]));
+        let label =
+            middle(&lines, [0, 1].map(|axis| half[axis]..f64::from(size[axis]) - half[axis]));
         drawing.lines(lines.clone(), 3.0 * style.hairline, style.background);
         drawing.lines(lines, 1.2 * style.hairline, style.ink);
         drawing.rectangle(
@@ -101,7 +103,9 @@ fn push_lines(values: [f64; 4], [left, top]: Point, lines: &mut Vec<[Point; 2]>)
         let (from, to) = (side, (side + 1) % 4);
         let part = values[from] / (values[from] - values[to]);
         [0, 1].map(|axis| {
-            [left, top][axis] + CORNERS[from][axis] + part * (CORNERS[to][axis] - CORNERS[from][axis])
+            [left, top][axis]
+                + CORNERS[from][axis]
+                + part * (CORNERS[to][axis] - CORNERS[from][axis])
         })
     };
     let is_crossed = |side: &usize| (values[*side] < 0.0) != (values[(side + 1) % 4] < 0.0);
@@ -123,10 +127,14 @@ fn push_lines(values: [f64; 4], [left, top]: Point, lines: &mut Vec<[Point; 2]>)
 fn middle(lines: &[[Point; 2]], area: [Range<f64>; 2]) -> Point {
     let middle = |[a, b]: &[Point; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     let n = lines.len() as f64;
-    let mean = lines.iter().map(middle).fold([0.0; 2], |sum, at| [sum[0] + at[0] / n, sum[1] + at[1] / n]);
-    let apart = |at: &Point| (at[0] - mean[0]) * (at[0] - mean[0]) + (at[1] - mean[1]) * (at[1] - mean[1]);
+    let mean =
+        lines.iter().map(middle).fold([0.0; 2], |sum, at| [sum[0] + at[0] / n, sum[1] + at[1] / n]);
+    let apart =
+        |at: &Point| (at[0] - mean[0]) * (at[0] - mean[0]) + (at[1] - mean[1]) * (at[1] - mean[1]);
     let is_outside = |at: &Point| !(area[0].contains(&at[0]) && area[1].contains(&at[1]));
-    let order = |a: &Point, b: &Point| is_outside(a).cmp(&is_outside(b)).then(apart(a).total_cmp(&apart(b)));
+    let order = |a: &Point, b: &Point| {
+        is_outside(a).cmp(&is_outside(b)).then(apart(a).total_cmp(&apart(b)))
+    };
     lines.iter().map(middle).min_by(order).unwrap_or(mean)
 }
 

@@ -18,7 +18,16 @@ const LENGTHS: [f64; 4] = [1.8, 3.6, 6.0, 9.0];
 /// order in which they are tried: cosine and sine of multiples of 30 degrees.
 const TURNS: [[f64; 2]; 8] = {
     const ROOT: f64 = 0.866_025_403_784_438_6;
-    [[1.0, 0.0], [ROOT, 0.5], [ROOT, -0.5], [0.5, ROOT], [0.5, -ROOT], [0.0, 1.0], [0.0, -1.0], [-1.0, 0.0]]
+    [
+        [1.0, 0.0],
+        [ROOT, 0.5],
+        [ROOT, -0.5],
+        [0.5, ROOT],
+        [0.5, -ROOT],
+        [0.0, 1.0],
+        [0.0, -1.0],
+        [-1.0, 0.0],
+    ]
 };
 
 /// Greatest width of text relative to the picture.
@@ -56,16 +65,23 @@ pub fn draw<E: From<Error>>(
     let n_outside = scene.labels().count() - labels.len();
     let n_inside = labels.len();
     if !shows_hidden {
-        let arms: Vec<_> = labels.iter().flat_map(|label| arms(seen, label.0 - seen.view.eye)).collect();
+        let arms: Vec<_> =
+            labels.iter().flat_map(|label| arms(seen, label.0 - seen.view.eye)).collect();
         let visible = seen.visible(scene.clone(), &arms)?;
-        labels.retain(|(_, tip, _)| visible.iter().any(|ends| ends.iter().all(|&end| is_near(end, *tip))));
+        labels.retain(|(_, tip, _)| {
+            visible.iter().any(|ends| ends.iter().all(|&end| is_near(end, *tip)))
+        });
     }
     let n_hidden = n_inside - labels.len();
     // Text covers neither the tip of an arrow nor other text.
     let mut taken: Vec<Rectangle> = labels.iter().map(|label| [label.1; 2]).collect();
     taken.extend(covered);
-    let bounds =
-        scene.vertices.iter().filter_map(|vertex| place(vertex.position)).map(|at| [at; 2]).reduce(union);
+    let bounds = scene
+        .vertices
+        .iter()
+        .filter_map(|vertex| place(vertex.position))
+        .map(|at| [at; 2])
+        .reduce(union);
     let [low, high] = bounds.unwrap_or_default();
     let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
     for (_, tip, text) in labels {
@@ -77,7 +93,8 @@ pub fn draw<E: From<Error>>(
         push(tip, at, &lines, style, drawing);
         taken.push(at);
     }
-    let notes = [(n_outside, Note::LabelsOutside(n_outside)), (n_hidden, Note::LabelsHidden(n_hidden))];
+    let notes =
+        [(n_outside, Note::LabelsOutside(n_outside)), (n_hidden, Note::LabelsHidden(n_hidden))];
     Ok(notes.into_iter().filter_map(|(n, note)| (n > 0).then_some(note)).collect())
 }
 
@@ -89,7 +106,8 @@ fn arms<E: From<Error>>(seen: &SeenScene<'_, E>, point: DVec3) -> [[DVec3; 2]; 2
     let at = |[x, y]: [f64; 2]| view.point([place[0] + x, place[1] + y], view.place(point).z);
     let toward = if view.is_perspective { -point.normalize() } else { -view.forward };
     let lift = (at([ARM, 0.0]) - point).length() * toward;
-    [[[-ARM, 0.0], [ARM, 0.0]], [[0.0, -ARM], [0.0, ARM]]].map(|ends| ends.map(|end| at(end) + lift))
+    [[[-ARM, 0.0], [ARM, 0.0]], [[0.0, -ARM], [0.0, ARM]]]
+        .map(|ends| ends.map(|end| at(end) + lift))
 }
 
 /// True if a point of the picture is in reach of the lines around another.
@@ -141,7 +159,10 @@ fn push(tip: Point, [low, high]: Rectangle, lines: &[Line], style: &Style, drawi
 
 /// The least box around two.
 fn union([low, high]: Rectangle, [other_low, other_high]: Rectangle) -> Rectangle {
-    [[0, 1].map(|axis| low[axis].min(other_low[axis])), [0, 1].map(|axis| high[axis].max(other_high[axis]))]
+    [
+        [0, 1].map(|axis| low[axis].min(other_low[axis])),
+        [0, 1].map(|axis| high[axis].max(other_high[axis])),
+    ]
 }
 
 /// True if two boxes do not overlap.

@@ -96,7 +96,13 @@ impl Layout {
             let rainbow = beside.min(most);
             let left = 0.5 * (width - rainbow - (GAP + MOTION) * size);
             let motion = ([left + rainbow + GAP * size, top], MOTION * size);
-            return Self { size, padding, rainbow: ([left, top], rainbow), motion, end: top + HEIGHT * size };
+            return Self {
+                size,
+                padding,
+                rainbow: ([left, top], rainbow),
+                motion,
+                end: top + HEIGHT * size,
+            };
         }
         // One above the other.
         let (rainbow, motion) = (room.min(most), room.min(MOTION * size));
@@ -143,7 +149,11 @@ impl Legend<'_> {
             // Each piece extends under the next, so that no background shows between them.
             let to = (from + 1.7 * STEP_NM).min(VISIBLE_NM[1]);
             let columns = [from, to].map(|wavelength_nm| self.layout.column(wavelength_nm));
-            drawing.rectangle([columns[0], top], [columns[1], bottom], spectral(from + 0.5 * STEP_NM));
+            drawing.rectangle(
+                [columns[0], top],
+                [columns[1], bottom],
+                spectral(from + 0.5 * STEP_NM),
+            );
         }
         let line = self.style.hairline;
         let [left, right] = VISIBLE_NM.map(|end| self.layout.column(end));
@@ -167,7 +177,9 @@ impl Legend<'_> {
 
     /// Draws an arrow from a wavelength to the bar of wavelengths at which its light is seen.
     fn shift(&self, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
-        let Some([low, high]) = self.motion.doppler.filter(|_| !self.motion.is_rest()) else { return Ok(()) };
+        let Some([low, high]) = self.motion.doppler.filter(|_| !self.motion.is_rest()) else {
+            return Ok(());
+        };
         let Layout { size, rainbow: ([_, top], width), .. } = self.layout;
         let ink = self.style.ink;
         let words = if self.motion.is_shifted {
@@ -209,7 +221,8 @@ impl Legend<'_> {
         let wider = (0.5 * (0.3 * size - (inside[1] - inside[0]))).max(0.0);
         if inside[1] > inside[0] || (left..=right).contains(&near) {
             let thick = 0.24 * size;
-            let corners = [[inside[0] - wider, row - 0.5 * thick], [inside[1] + wider, row + 0.5 * thick]];
+            let corners =
+                [[inside[0] - wider, row - 0.5 * thick], [inside[1] + wider, row + 0.5 * thick]];
             drawing.rectangle(corners[0], corners[1], ink);
         }
         drawing.area(circle([start, row], 0.42 * size), self.style.background);
@@ -225,8 +238,13 @@ impl Legend<'_> {
         let around = circle(middle, radius);
         let sides = (0..around.len()).map(|idx| [around[idx], around[(idx + 1) % around.len()]]);
         drawing.lines(sides.collect(), line, self.style.faint);
-        let moving: Vec<DVec3> =
-            self.motion.directions.iter().copied().filter(|direction| *direction != DVec3::ZERO).collect();
+        let moving: Vec<DVec3> = self
+            .motion
+            .directions
+            .iter()
+            .copied()
+            .filter(|direction| *direction != DVec3::ZERO)
+            .collect();
         if moving.len() > MOST_ARROWS {
             return;
         }
@@ -275,18 +293,24 @@ impl Legend<'_> {
         if let Some(ends) = self.motion.own_time {
             let unit = self.units.time(ends[1].abs().max(ends[0].abs()));
             let words = match unit {
-                Some(unit) => format!("{} {}", between(ends.map(|end| end * unit.factor)), unit.name),
+                Some(unit) => {
+                    format!("{} {}", between(ends.map(|end| end * unit.factor)), unit.name)
+                }
                 None => between(ends),
             };
             doppler += &format!(",  τ = {words}");
         }
-        let mut beta = format!("β = {}", list_or_range(velocities.iter().map(|&v| speed(v)).collect()));
+        let mut beta =
+            format!("β = {}", list_or_range(velocities.iter().map(|&v| speed(v)).collect()));
         if let Some(unit) = self.units.speed() {
-            let speeds = velocities.iter().map(|v| significant(v.speed() * unit.factor, 6)).collect();
+            let speeds =
+                velocities.iter().map(|v| significant(v.speed() * unit.factor, 6)).collect();
             beta = format!("v = {} {},  {beta}", list_or_range(speeds), unit.name);
         }
-        let gamma =
-            format!("γ = {}", list_or_range(velocities.iter().map(|v| significant(v.gamma(), 4)).collect()));
+        let gamma = format!(
+            "γ = {}",
+            list_or_range(velocities.iter().map(|v| significant(v.gamma(), 4)).collect())
+        );
         let words = if self.motion.is_rest() {
             ["at rest".to_owned(), "β = 0,  γ = 1".to_owned(), doppler]
         } else {

@@ -31,7 +31,8 @@ impl Scale {
     /// Doppler factors has 1 in its middle, unless the options say otherwise.
     pub fn new(options: &MapOptions, values: &[f32], units: &Units) -> Self {
         let quantity = options.quantity;
-        let finite = values.par_iter().filter(|value| value.is_finite()).map(|&value| [f64::from(value); 2]);
+        let finite =
+            values.par_iter().filter(|value| value.is_finite()).map(|&value| [f64::from(value); 2]);
         let ends = finite.reduce_with(|[a, b], [c, d]| [a.min(c), b.max(d)]).unwrap_or([0.0, 1.0]);
         let range = options.range.unwrap_or_else(|| match quantity {
             Quantity::Doppler => {
@@ -68,7 +69,8 @@ impl Scale {
     /// The colour of a place: from red over white to blue for Doppler factors, else Viridis, which
     /// is perceptually uniform.
     pub fn color(&self, place: f64) -> Rgb {
-        let map = if self.quantity == Quantity::Doppler { colorous::RED_BLUE } else { colorous::VIRIDIS };
+        let map =
+            if self.quantity == Quantity::Doppler { colorous::RED_BLUE } else { colorous::VIRIDIS };
         map.eval_continuous(place).as_array()
     }
 
@@ -78,7 +80,8 @@ impl Scale {
         let [low, high] = self.range.map(|end| factor * end);
         let powers = |mantissas: &'static [f64]| -> Vec<f64> {
             let (first, last) = (libm::floor(libm::log10(low)) as i32, libm::log10(high) as i32);
-            let decade = |power| mantissas.iter().map(move |part| part * libm::exp10(f64::from(power)));
+            let decade =
+                |power| mantissas.iter().map(move |part| part * libm::exp10(f64::from(power)));
             (first..=last).flat_map(decade).filter(|tick| (low..=high).contains(tick)).collect()
         };
         let mut ticks = match self.quantity {
@@ -91,10 +94,13 @@ impl Scale {
         if ticks.len() < 2 {
             let raw = (high - low) / 5.0;
             let power = libm::exp10(libm::floor(libm::log10(raw)));
-            let step =
-                power * [1.0, 2.0, 5.0, 10.0].into_iter().find(|part| part * power >= raw).unwrap_or(1.0);
+            let step = power
+                * [1.0, 2.0, 5.0, 10.0].into_iter().find(|part| part * power >= raw).unwrap_or(1.0);
             let (first, n) = (libm::ceil(low / step), ((high - low) / step) as u32);
-            ticks = (0..=n).map(|idx| step * (first + f64::from(idx))).filter(|tick| *tick <= high).collect();
+            ticks = (0..=n)
+                .map(|idx| step * (first + f64::from(idx)))
+                .filter(|tick| *tick <= high)
+                .collect();
         }
         ticks.into_iter().map(|tick| (tick / factor, significant(tick, 4))).collect()
     }
@@ -195,7 +201,8 @@ mod tests {
     fn a_single_value_has_a_scale() {
         for (_, quantity) in Quantity::NAMES {
             for values in [vec![], vec![0.0], vec![3.0; 4], vec![f32::INFINITY]] {
-                let scale = Scale::new(&MapOptions { quantity, range: None }, &values, &Units::default());
+                let scale =
+                    Scale::new(&MapOptions { quantity, range: None }, &values, &Units::default());
                 assert!(scale.range[0] < scale.range[1], "{quantity:?} {values:?} {scale:?}");
                 assert!(!scale.ticks().is_empty(), "{scale:?}");
             }

@@ -122,7 +122,8 @@ impl Layout {
         let rows = height.checked_sub(title.rows(&style).saturating_add(below));
         let rows = rows.filter(|&rows| rows > 0 && rows >= height / 3).ok_or(Error::NoRoom)?;
         let scene = Pane { corner: [0, height - below - rows], size: [width - beside, rows] };
-        let panel = panel.at(place, scene, (0.5 * style.size).round() as u32).ok_or(Error::NoRoom)?;
+        let panel =
+            panel.at(place, scene, (0.5 * style.size).round() as u32).ok_or(Error::NoRoom)?;
         Ok(Self { size, scene, title, panel })
     }
 
@@ -130,7 +131,8 @@ impl Layout {
     /// that part.
     pub fn pixel_of_scene(&self, pixel: [u32; 2]) -> Option<[u32; 2]> {
         let Pane { corner, size } = self.scene;
-        let part = |axis: usize| pixel[axis].checked_sub(corner[axis]).filter(|&at| at < size[axis]);
+        let part =
+            |axis: usize| pixel[axis].checked_sub(corner[axis]).filter(|&at| at < size[axis]);
         Some([part(0)?, part(1)?])
     }
 
@@ -157,7 +159,9 @@ impl Layout {
         options: &PictureOptions,
     ) -> Result<Option<(Frame, Scale)>, E> {
         let Some(map) = &options.annotations.map else { return Ok(None) };
-        let Subject::Surfaces { items, .. } = annotated.subject else { return Err(Error::NoSurfaces.into()) };
+        let Subject::Surfaces { items, .. } = annotated.subject else {
+            return Err(Error::NoSurfaces.into());
+        };
         let [width, height] = options.size.map(|side| side as usize * options.samples as usize);
         let mut values = Vec::new();
         items(true, &mut |item| {
@@ -196,7 +200,8 @@ impl Layout {
         }
         let mut panel = Drawing::default();
         let panel_width = f64::from(self.panel.window.size[0]);
-        let AnnotationOptions { legend, outline, grid, ref iso, ref units, .. } = options.annotations;
+        let AnnotationOptions { legend, outline, grid, ref iso, ref units, .. } =
+            options.annotations;
         if let Subject::Surfaces { view, items, scene, wires, shows_hidden } = annotated.subject {
             let has_labels = !options.output.format().is_linear()
                 && scene.is_some_and(|scene| scene.labels().next().is_some());
@@ -207,7 +212,9 @@ impl Layout {
                 if is_smaller {
                     let whole = PictureOptions { size: self.size, ..options.clone() };
                     let whole = SeenScene::new(scene, view, &whole, wires)?;
-                    all.notes.extend(cuts_body(scene, &whole.view, &seen.view).then_some(Note::CutByText));
+                    all.notes.extend(
+                        cuts_body(scene, &whole.view, &seen.view).then_some(Note::CutByText),
+                    );
                 }
                 if grid {
                     all.notes.extend(grid::draw(&seen, units, style, &mut all.over)?);
@@ -217,7 +224,13 @@ impl Layout {
                 }
                 if has_labels {
                     let covered = self.covered();
-                    all.notes.extend(labels::draw(&seen, style, covered, shows_hidden, &mut all.over)?);
+                    all.notes.extend(labels::draw(
+                        &seen,
+                        style,
+                        covered,
+                        shows_hidden,
+                        &mut all.over,
+                    )?);
                 }
             } else if has_labels {
                 all.notes.push(Note::NoLabels);
@@ -267,7 +280,11 @@ impl Layout {
 
 impl Panel {
     /// Lays out its parts, at the upper left corner of a picture of this size. It may have none.
-    fn new(annotations: &AnnotationOptions, style: &Style, [width, _]: [u32; 2]) -> Result<Self, Error> {
+    fn new(
+        annotations: &AnnotationOptions,
+        style: &Style,
+        [width, _]: [u32; 2],
+    ) -> Result<Self, Error> {
         let mut width = width;
         if annotations.place != Place::Below {
             width = (width / 2).min((PANEL * style.size).ceil() as u32);

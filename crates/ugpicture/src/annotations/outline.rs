@@ -36,7 +36,8 @@ pub fn draw<E: From<Error>>(
         return Ok(Some(Note::NoOutline));
     }
     let places = ideal_places(seen);
-    let visible = seen.visible(ideal_scene(seen.scene, seen.view.eye, &places), &edges(seen, &places))?;
+    let visible =
+        seen.visible(ideal_scene(seen.scene, seen.view.eye, &places), &edges(seen, &places))?;
     let width = style.hairline;
     drawing.lines(visible.clone(), 3.0 * width, style.background);
     drawing.lines(visible, width, style.ink);
@@ -59,7 +60,8 @@ fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
         let center = 0.5 * low + 0.5 * high;
         let motion = frames.motion(body);
         let (place, own_time) = motion.light(motion.turned(center)).unwrap_or((center, 0.0));
-        let turn = motion.world_line().map_or(DQuat::IDENTITY, |line| line.standing(center, own_time).1);
+        let turn =
+            motion.world_line().map_or(DQuat::IDENTITY, |line| line.standing(center, own_time).1);
         Some((center, place, turn))
     };
     let standing: Vec<_> = scene.bodies.ids().map(standing).collect();
@@ -89,7 +91,8 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<[DVec
     let is_moving = |face: &Face| frames.is_moving(face.body);
     let moving = scene.faces.iter().filter(|face| is_moving(face));
     let corners = moving.flat_map(|face| scene.face_corners(face));
-    let nearest = corners.map(|corner| places[corner.index()].length()).fold(f64::INFINITY, f64::min);
+    let nearest =
+        corners.map(|corner| places[corner.index()].length()).fold(f64::INFINITY, f64::min);
     let [left, right] = [[0.0, 0.0], [1.0, 0.0]].map(|place| view.point(place, nearest));
     let spots = spots(places, SAME_PLACE * (right - left).length());
     // The normal of a face, and whether the eye is on its side.

@@ -34,7 +34,8 @@ impl<'a, E: From<Error>> SeenScene<'a, E> {
     ) -> Result<Self, E> {
         // The camera must stay, although lines change what is in the scene.
         let center = view.eye + view.distance * view.forward;
-        let camera = CameraOptions { eye: Some(view.eye), center: Some(center), ..options.camera.clone() };
+        let camera =
+            CameraOptions { eye: Some(view.eye), center: Some(center), ..options.camera.clone() };
         let view = View::new(scene, &camera, options.size).map_err(Error::from)?;
         let size = options.size.map(f64::from);
         Ok(Self { scene, view, frames: RestFrames::new(scene), size, camera, wires })
@@ -61,7 +62,8 @@ pub fn cuts_body(scene: &Scene, whole: &View, part: &View) -> bool {
     for (vertex, body) in scene.vertices.iter().zip(vertex_bodies(scene)) {
         let point = vertex.position - part.eye;
         let is_seen = &mut bodies[body.index()];
-        *is_seen = [is_seen[0] && is_in_picture(whole, point), is_seen[1] && is_in_picture(part, point)];
+        *is_seen =
+            [is_seen[0] && is_in_picture(whole, point), is_seen[1] && is_in_picture(part, point)];
     }
     bodies.contains(&[true, false])
 }
@@ -76,7 +78,13 @@ fn with_wires(mut scene: Scene, eye: DVec3, lines: &[[DVec3; 2]]) -> Scene {
             if !scene.rest.is_empty() {
                 scene.rest.push(end);
             }
-            scene.add_vertex(Vertex { name, position: eye + end, color: None, normal: None, uv: None })
+            scene.add_vertex(Vertex {
+                name,
+                position: eye + end,
+                color: None,
+                normal: None,
+                uv: None,
+            })
         });
         let contours = scene.contours.push_all([ends]);
         scene.wires.push(Wire { name: None, contours, color: None, body, text: None });
@@ -87,7 +95,8 @@ fn with_wires(mut scene: Scene, eye: DVec3, lines: &[[DVec3; 2]]) -> Scene {
 /// The velocities of the bodies of faces, each once where faces of one velocity follow each other.
 pub fn velocities(scene: &Scene) -> Vec<Velocity> {
     let frames = RestFrames::new(scene);
-    let mut velocities: Vec<Velocity> = scene.faces.iter().map(|face| frames.velocity(face.body)).collect();
+    let mut velocities: Vec<Velocity> =
+        scene.faces.iter().map(|face| frames.velocity(face.body)).collect();
     velocities.dedup();
     velocities
 }

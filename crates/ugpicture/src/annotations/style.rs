@@ -42,7 +42,8 @@ impl Style {
         let size = libm::sqrt(width * height) / PER_SIZE;
         let size = options.annotations.text_size.unwrap_or_else(|| size.max(least).round());
         let byte = |part: f64| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8;
-        let background = background.map_or([255; 3], |light| light.map(|part| byte(f64::from(part))));
+        let background =
+            background.map_or([255; 3], |light| light.map(|part| byte(f64::from(part))));
         let ink = ink_on(background);
         let light = |level: u8| srgb_decode(f64::from(level) / 255.0);
         let faint = [0, 1, 2].map(|i| byte(0.65 * light(background[i]) + 0.35 * light(ink[i])));

@@ -22,7 +22,9 @@ impl Words for Error {
             Self::NoVectors => "{}: with -vec write -dt eps, ps, pdf or svg",
             Self::NoSamples => "{}: leave out -fl or -vec",
             Self::VectorSize => "{}: give a smaller -sz, or leave out -vec",
-            Self::TooNarrow => "{}: give a wider -sz, a smaller -ts, or leave out -title, -cap, -lg and -map",
+            Self::TooNarrow => {
+                "{}: give a wider -sz, a smaller -ts, or leave out -title, -cap, -lg and -map"
+            }
             Self::NoRoom => "{}: give a larger -sz, a smaller -ts, or a shorter -title and -cap",
             Self::Pixel { .. } => "{}; give -sz for a larger one",
             Self::Texture(_) => {
@@ -66,7 +68,9 @@ impl Words for Note {
             Self::EdgeOn => "{}; try another -ep or a narrower -va",
             Self::BlackLines => "{}: choose another colour with -lc or -bg",
             Self::OutOfRange { .. } => remedies::OUT_OF_RANGE,
-            Self::BlackFaces | Self::BlackPanorama => "{}; try -look light, or -look shape to see the shape",
+            Self::BlackFaces | Self::BlackPanorama => {
+                "{}; try -look light, or -look shape to see the shape"
+            }
             Self::NegativeLight { .. } => "{}; --basis mixture has none",
             Self::EnclosedLamp(_) => "{}: move it out, or give --no-shadows",
             Self::TooDeep { .. } => "{}: a larger -rd shows it",

@@ -269,7 +269,8 @@ impl Explainer<'_> {
         let Self { scene, parsed, source, .. } = self;
         let id = row.saturating_add(1);
         let row = row as usize;
-        let name = |name: Option<ugscene::NameId>| name.map(|name| scene.names.get(name).to_owned());
+        let name =
+            |name: Option<ugscene::NameId>| name.map(|name| scene.names.get(name).to_owned());
         let Some(face) = scene.faces.get(row) else {
             let wire = scene.wires.get(row - scene.faces.len());
             let name = name(wire.and_then(|wire| wire.name));

@@ -5,7 +5,9 @@ use std::fmt::Display;
 use serde::{Serialize, Serializer};
 use ugscene::{ColorScale, SeenColors};
 
-use super::{ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, SampleColor};
+use super::{
+    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, SampleColor,
+};
 
 /// A sample, explained by one of the renderers.
 pub trait WriteSample: Serialize + Sized {
@@ -24,13 +26,21 @@ impl<S: WriteSample> Explanation<S> {
         let mut out = ExplanationText::default();
         out.line(format!("pixel {x} {y} of {width} x {height}, {columns} x {rows} samples"));
         for cover in &self.covers {
-            out.line(format!("    {} of {}: {}", cover.samples, columns * rows, described(&cover.item)));
+            out.line(format!(
+                "    {} of {}: {}",
+                cover.samples,
+                columns * rows,
+                described(&cover.item)
+            ));
         }
         if self.background_samples > 0 {
             out.line(format!("    {} of {}: background", self.background_samples, columns * rows));
         }
         if let Some(sample) = &self.sample {
-            out.line(format!("\nthe covered sample nearest to the centre, at {}", numbers(&sample.place)));
+            out.line(format!(
+                "\nthe covered sample nearest to the centre, at {}",
+                numbers(&sample.place)
+            ));
             sample.own.write(&mut out, self);
         }
         self.write_steps(&mut out);
@@ -100,12 +110,16 @@ impl ExplanationText {
             let t = event.t.map_or("none, as an effect was left out".to_owned(), number);
             format!("t {t}, x {} ({frame})", numbers(&event.x))
         };
-        self.row("emission", event(surface.emission, "camera frame, axes of the scene, from the eye"));
+        self.row(
+            "emission",
+            event(surface.emission, "camera frame, axes of the scene, from the eye"),
+        );
         self.row("", event(surface.emission_at_rest, "rest frame"));
         if let Some((camera, rest)) = surface.angle_deg.zip(surface.angle_at_rest_deg) {
             let (camera, rest) = (number(camera), number(rest));
-            let text =
-                format!("{camera}° from the motion in the camera frame, {rest}° in the rest frame (P6)");
+            let text = format!(
+                "{camera}° from the motion in the camera frame, {rest}° in the rest frame (P6)"
+            );
             self.row("seen at", text);
         }
     }
@@ -123,7 +137,9 @@ impl ExplanationText {
             (true, ColorScale::Spectra { .. }) => "spectra shifted by D (P11)",
         };
         let (law, power) = match seen.scale {
-            ColorScale::Hues { law, .. } => (format!("by the law `{}`", law.name()), law.factor(doppler)),
+            ColorScale::Hues { law, .. } => {
+                (format!("by the law `{}`", law.name()), law.factor(doppler))
+            }
             ColorScale::Spectra { flux: true, .. } => {
                 ("D^5 per wavelength".to_owned(), libm::pow(doppler, 5.0))
             }
@@ -131,7 +147,10 @@ impl ExplanationText {
         };
         let lights = if seen.lights { "; the light of lamps is in them (P14)" } else { "" };
         let power = number(power);
-        self.row("colours", format!("as seen: {shift}, brightness {law}: times {power} (P12){lights}"));
+        self.row(
+            "colours",
+            format!("as seen: {shift}, brightness {law}: times {power} (P12){lights}"),
+        );
     }
 
     /// The colour of a sample: its numbers, and the wavelength at rest and as seen.
@@ -152,23 +171,33 @@ impl ExplanationText {
                 let Some(wavelength) = wavelength else {
                     return self.row("colour", format!("grey, value {value}{lit}"));
                 };
-                self.row("colour", format!("hue {hue}, saturation {saturation}, value {value}{lit}"));
+                self.row(
+                    "colour",
+                    format!("hue {hue}, saturation {saturation}, value {value}{lit}"),
+                );
                 self.wavelength(wavelength);
             }
         }
     }
 
     fn wavelength(&mut self, wavelength: &HueWavelength) {
-        let end =
-            if wavelength.is_at_end_of_range { ", the end of the range, or anything beyond" } else { "" };
-        let [rest, seen] = [wavelength.rest_wavelength_nm, wavelength.seen_wavelength_nm].map(number);
+        let end = if wavelength.is_at_end_of_range {
+            ", the end of the range, or anything beyond"
+        } else {
+            ""
+        };
+        let [rest, seen] =
+            [wavelength.rest_wavelength_nm, wavelength.seen_wavelength_nm].map(number);
         self.row("wavelength", format!("{rest} nm at rest, {seen} nm seen{end} (P16)"));
         self.row("attenuation", format!("hue times {} (P17)", number(wavelength.attenuation)));
     }
 }
 
 /// Serialises the brightness law of colours as seen by its name.
-pub(super) fn law_name<S: Serializer>(colors: &Option<SeenColors>, out: S) -> Result<S::Ok, S::Error> {
+pub(super) fn law_name<S: Serializer>(
+    colors: &Option<SeenColors>,
+    out: S,
+) -> Result<S::Ok, S::Error> {
     let name = colors.map(|seen| match seen.scale {
         ColorScale::Hues { law, .. } => law.name(),
         ColorScale::Spectra { flux: true, .. } => "D^5",
@@ -204,5 +233,9 @@ pub fn number(x: impl Into<f64>) -> String {
     let x: f64 = x.into();
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     let size = rounded.abs();
-    if size != 0.0 && !(1e-4..1e9).contains(&size) { format!("{rounded:e}") } else { format!("{rounded}") }
+    if size != 0.0 && !(1e-4..1e9).contains(&size) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
+    }
 }

@@ -58,7 +58,8 @@ impl Film {
             }
             Lens::Fisheye { angle } => angle / width.min(height),
             Lens::Cube => {
-                let parts = [self.right, self.up, self.forward].map(|axis| direction.dot(axis).abs());
+                let parts =
+                    [self.right, self.up, self.forward].map(|axis| direction.dot(axis).abs());
                 2.0 / width.min(height) * parts[0].max(parts[1]).max(parts[2])
             }
         }
@@ -141,7 +142,12 @@ impl Film {
         (if whole { 0..width as i64 } else { columns }, clipped(&rows, height as i64))
     }
 
-    fn fisheye_window(&self, angle: f64, direction: DVec3, radius: f64) -> (Range<i64>, Range<i64>) {
+    fn fisheye_window(
+        &self,
+        angle: f64,
+        direction: DVec3,
+        radius: f64,
+    ) -> (Range<i64>, Range<i64>) {
         let [width, height] = self.size;
         let edge = 0.5 * width.min(height);
         let per_radian = edge / (0.5 * angle);
@@ -168,7 +174,8 @@ impl Film {
                 let (sin, cos) = libm::sincos(turn);
                 for distance in [near, far] {
                     let [x, y] = [distance * cos, distance * sin];
-                    box_of = [box_of[0].min(x), box_of[1].max(x), box_of[2].min(y), box_of[3].max(y)];
+                    box_of =
+                        [box_of[0].min(x), box_of[1].max(x), box_of[2].min(y), box_of[3].max(y)];
                 }
             }
         }
@@ -199,7 +206,9 @@ impl Film {
         for row in window.rows.clone().step_by(down as usize) {
             for column in window.columns.clone().step_by(across as usize) {
                 let pixel = Window { columns: column..column + 1, rows: row..row + 1, ..*window };
-                self.visit(&pixel, |facet| each(&Facet { solid_angle: part * facet.solid_angle, ..*facet }));
+                self.visit(&pixel, |facet| {
+                    each(&Facet { solid_angle: part * facet.solid_angle, ..*facet })
+                });
             }
         }
     }
@@ -247,8 +256,10 @@ impl Film {
             for column in window.columns.clone() {
                 let at = [column as f64 + 0.5, row as f64 + 0.5];
                 let Some(direction) = self.direction(at, 0) else { continue };
-                let from_middle = per_pixel * libm::hypot(at[0] - 0.5 * width, 0.5 * height - at[1]);
-                let narrowed = if from_middle > 0.0 { libm::sin(from_middle) / from_middle } else { 1.0 };
+                let from_middle =
+                    per_pixel * libm::hypot(at[0] - 0.5 * width, 0.5 * height - at[1]);
+                let narrowed =
+                    if from_middle > 0.0 { libm::sin(from_middle) / from_middle } else { 1.0 };
                 let solid_angle = per_pixel * per_pixel * narrowed;
                 each(&Facet { place: self.place(0, [column, row]), direction, solid_angle });
             }
@@ -398,7 +409,10 @@ mod tests {
                 let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
                 let [a, b, c, d] = [a, b, c, d].map(|sight| sight.direction.normalize());
                 let area = 0.5 * (c - a).cross(d - b).length() / 0.0004;
-                assert!((facet.solid_angle / area - 1.0).abs() < 2e-3, "{lens:?} {place:?}: {area}");
+                assert!(
+                    (facet.solid_angle / area - 1.0).abs() < 2e-3,
+                    "{lens:?} {place:?}: {area}"
+                );
                 let side = film.pixel_side(facet.direction);
                 assert!(side * side > 0.99 * facet.solid_angle);
             }
@@ -419,12 +433,14 @@ mod tests {
     fn sums_over_some_pixels_are_those_over_all() {
         for view_angle in [(2.0, Some(2e-6)), (2e-6, Some(2.0)), (2.0, Some(2.0))] {
             let center = Some(DVec3::Y);
-            let options = CameraOptions { center, view_angle: Some(view_angle), ..CameraOptions::default() };
+            let options =
+                CameraOptions { center, view_angle: Some(view_angle), ..CameraOptions::default() };
             let Ok(view) = View::without_scene(&Camera::default(), &options, [9, 9]) else {
                 panic!("a camera")
             };
             let film = Film::new(Lens::Pinhole, None, &view, [9, 9]);
-            let direction = film.sight([4.7, 4.4]).map_or(DVec3::ZERO, |sight| sight.direction.normalize());
+            let direction =
+                film.sight([4.7, 4.4]).map_or(DVec3::ZERO, |sight| sight.direction.normalize());
             let deviation = 4.0 * film.pixel_side(direction);
             let mut sum = 0.0;
             for window in film.pixels_near(direction, 4.0 * deviation) {

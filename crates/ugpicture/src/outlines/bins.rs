@@ -44,7 +44,9 @@ impl Bins {
         for (shape, [columns, rows]) in (0u32..).zip(rects) {
             let columns = tiles.of(0, &columns);
             for row in tiles.of(1, &rows) {
-                columns.clone().for_each(|column| shapes[(row * across + column) as usize].push(shape));
+                columns
+                    .clone()
+                    .for_each(|column| shapes[(row * across + column) as usize].push(shape));
             }
         }
         Self { tiles, shapes }

@@ -130,7 +130,10 @@ impl Outlines {
         let all = faces.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));
         let shapes: Vec<OutlinedFace> =
             all.filter_map(|(row, face)| build(faces, &frames, tiles.size, row, face)).collect();
-        let bins = Bins::new(tiles, shapes.iter().map(|shape| [shape.columns.clone(), shape.rows.clone()]));
+        let bins = Bins::new(
+            tiles,
+            shapes.iter().map(|shape| [shape.columns.clone(), shape.rows.clone()]),
+        );
         let limits = [(1.0 / view.slab.far).max(f64::MIN_POSITIVE), 1.0 / view.slab.near];
         let film = Film::new(view.rays());
         Self { frames, shapes, bins, film, size: tiles.size, limits, pool: Mutex::default() }
@@ -162,8 +165,11 @@ impl Outlines {
             let nearer = shape.outline.key(ray);
             nearer > key && (least..=most).contains(&nearer) && shape.outline.contains(ray)
         };
-        let shapes = self.bins.around([column, row]).iter().map(|&shape| &self.shapes[shape as usize]);
-        shapes.filter(|shape| shape.columns.contains(&column) && shape.rows.contains(&row)).any(hides)
+        let shapes =
+            self.bins.around([column, row]).iter().map(|&shape| &self.shapes[shape as usize]);
+        shapes
+            .filter(|shape| shape.columns.contains(&column) && shape.rows.contains(&row))
+            .any(hides)
     }
 
     /// Finds the nearest face at each sample of a part of a tile, and runs `work` with the result.
@@ -181,7 +187,12 @@ impl Outlines {
         })
     }
 
-    fn find_nearest(&self, shapes: &[u32], [columns, rows]: [Range<u32>; 2], scratch: &mut Scratch) {
+    fn find_nearest(
+        &self,
+        shapes: &[u32],
+        [columns, rows]: [Range<u32>; 2],
+        scratch: &mut Scratch,
+    ) {
         let Scratch { lengths, nearest, cutter } = scratch;
         lengths.reset(&self.film, columns.clone(), rows.clone());
         nearest.reset(columns.clone(), rows.clone());
@@ -194,7 +205,8 @@ impl Outlines {
                 if frame.is_extreme() {
                     let rays = frame.row(center(row));
                     let key = |column| shape.outline.key(frame.ray(rays, center(column)));
-                    nearest.draw(row, columns, lengths, number, |column, _| self.limited(key(column)));
+                    nearest
+                        .draw(row, columns, lengths, number, |column, _| self.limited(key(column)));
                 } else {
                     let form = shape.depth.on_row(row);
                     let key = |column, length| self.limited(form.at(column, length));
@@ -280,9 +292,12 @@ impl Outlines {
     /// The part of some columns and rows in which the given faces may be visible.
     fn bounds(&self, shapes: &[u32], [columns, rows]: [Range<u32>; 2]) -> [Range<u32>; 2] {
         let around = |sides: &dyn Fn(&OutlinedFace) -> Range<u32>, range: Range<u32>| {
-            let sides = shapes.iter().map(|&number| common(&sides(&self.shapes[number as usize]), &range));
+            let sides =
+                shapes.iter().map(|&number| common(&sides(&self.shapes[number as usize]), &range));
             let sides = sides.filter(|side| !side.is_empty());
-            sides.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(range.start..range.start)
+            sides
+                .reduce(|a, b| a.start.min(b.start)..a.end.max(b.end))
+                .unwrap_or(range.start..range.start)
         };
         [around(&|shape| shape.columns.clone(), columns), around(&|shape| shape.rows.clone(), rows)]
     }
@@ -339,7 +354,9 @@ fn build(
     }
     // The text of a scene is below 4 GiB, so row numbers fit.
     let item = row as u32;
-    let (sides, depth) =
-        (outline.edges.iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane));
+    let (sides, depth) = (
+        outline.edges.iter().map(|edge| frame.side(edge.normal)).collect(),
+        frame.form(outline.plane),
+    );
     Some(OutlinedFace { item, frame: at, columns, rows, outline, sides, depth })
 }

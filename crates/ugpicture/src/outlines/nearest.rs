@@ -52,7 +52,9 @@ impl Nearest {
     ) {
         let samples = self.samples(row, &columns);
         let stored = self.keys[samples.clone()].iter_mut().zip(&mut self.faces[samples]);
-        for ((column, length), (nearest, owner)) in columns.clone().zip(lengths.part(&columns)).zip(stored) {
+        for ((column, length), (nearest, owner)) in
+            columns.clone().zip(lengths.part(&columns)).zip(stored)
+        {
             let key = key(column, *length);
             // Without branches, so that several samples are processed at once.
             let is_nearer = key > *nearest;
@@ -96,7 +98,8 @@ impl Nearest {
     #[inline]
     fn samples(&self, row: u32, columns: &Range<u32>) -> Range<usize> {
         let start = (row - self.rows.start) as usize * self.columns.len();
-        let [first, end] = [columns.start, columns.end].map(|column| (column - self.columns.start) as usize);
+        let [first, end] =
+            [columns.start, columns.end].map(|column| (column - self.columns.start) as usize);
         start + first..start + end
     }
 }

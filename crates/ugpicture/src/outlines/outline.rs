@@ -54,7 +54,8 @@ impl Outline {
             return None;
         }
         let plane = normal / normal.dot(middle);
-        let edges = contours.iter().flat_map(|contour| closed(contour)).map(|[a, b]| Edge::new(a, b));
+        let edges =
+            contours.iter().flat_map(|contour| closed(contour)).map(|[a, b]| Edge::new(a, b));
         plane.is_finite().then(|| Self { edges: edges.collect(), plane })
     }
 
@@ -121,8 +122,9 @@ mod tests {
                 DVec3::new(libm::cos(angle), libm::sin(angle), 3.0 + 0.2 * f64::from(i % 3))
             })
             .collect();
-        let faces: Vec<Outline> =
-            (0..7).map(|i| Outline::new(&[vec![middle, rim[i], rim[(i + 1) % 7]]]).unwrap()).collect();
+        let faces: Vec<Outline> = (0..7)
+            .map(|i| Outline::new(&[vec![middle, rim[i], rim[(i + 1) % 7]]]).unwrap())
+            .collect();
         for (i, corner) in rim.iter().enumerate() {
             for part in [0.0, 1e-17, 1e-16, 1e-3, 0.3, 0.99] {
                 let on_edge = middle + part * (*corner - middle);

@@ -60,7 +60,13 @@ impl Cutter {
     }
 
     /// Finds the crossings of the row. Returns false if every column has to be tested.
-    fn cut(&mut self, row: u32, columns: &Range<u32>, lengths: LengthRow<'_>, sides: &[Side]) -> bool {
+    fn cut(
+        &mut self,
+        row: u32,
+        columns: &Range<u32>,
+        lengths: LengthRow<'_>,
+        sides: &[Side],
+    ) -> bool {
         self.cuts.clear();
         let ends = [columns.start, columns.end - 1];
         let longest = lengths.at(ends[0]).max(lengths.at(ends[1]));
@@ -147,8 +153,10 @@ impl Line<'_> {
         }
         let is_unsure = |column: &u32| self.is_unsure(self.at(*column));
         let end = (high..to).find(|column| !is_unsure(column)).unwrap_or(to);
-        let start =
-            (from..=low).rev().find(|column| !is_unsure(column)).map_or(from + 1, |column| column + 1);
+        let start = (from..=low)
+            .rev()
+            .find(|column| !is_unsure(column))
+            .map_or(from + 1, |column| column + 1);
         start..end
     }
 }
@@ -178,7 +186,8 @@ mod tests {
             let bend = [0.0, 1e-9, 0.1, 1.0][case % 4];
             let sides: Vec<Side> = (0..3)
                 .map(|_| {
-                    let (across, per_length) = (random.in_cube(1.0), bend * random.between(-1.0, 1.0));
+                    let (across, per_length) =
+                        (random.in_cube(1.0), bend * random.between(-1.0, 1.0));
                     let [origin, per_column, per_row] = rays.map(|ray| across.dot(ray));
                     let form = Form { origin, per_column, per_row, per_length };
                     Side { form, size: across.length() + per_length.abs() }
@@ -190,8 +199,9 @@ mod tests {
                     side.form.on_row(row).at(column, ray.length())
                 };
                 // Changes with the sign of each side.
-                let contains =
-                    |column: u32| sides.iter().filter(|side| at(side, column) < 0.0).count() % 2 == 1;
+                let contains = |column: u32| {
+                    sides.iter().filter(|side| at(side, column) < 0.0).count() % 2 == 1
+                };
                 let mut taken = vec![false; COLUMNS.len()];
                 cutter.sections(row, COLUMNS, lengths.row(row), &sides, contains, |columns| {
                     columns.for_each(|column| taken[column as usize] = true);

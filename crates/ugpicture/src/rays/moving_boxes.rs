@@ -72,7 +72,12 @@ impl MovingBox {
         if slack < 1.0 && low.is_finite() && high.is_finite() {
             Self { low, high, velocity, slack }
         } else {
-            Self { low: DVec3::NEG_INFINITY, high: DVec3::INFINITY, velocity: DVec3::ZERO, slack: 1.0 }
+            Self {
+                low: DVec3::NEG_INFINITY,
+                high: DVec3::INFINITY,
+                velocity: DVec3::ZERO,
+                slack: 1.0,
+            }
         }
     }
 
@@ -216,7 +221,12 @@ impl MovingBoxes {
 
     /// Calls `visit` with the parts that a ray may meet at times `range` before its origin, roughly
     /// the nearest first. `visit` returns the end of the range from then on.
-    pub fn visit_nearest(&self, rays: &Rays, range: Range<f64>, mut visit: impl FnMut(usize) -> f64) {
+    pub fn visit_nearest(
+        &self,
+        rays: &Rays,
+        range: Range<f64>,
+        mut visit: impl FnMut(usize) -> f64,
+    ) {
         let (start, mut end) = (range.start * (1.0 - ROUNDING), range.end * (1.0 + ROUNDING));
         let turns = [rays.from.t + self.time, rays.to.t + self.time];
         let [before_turn, behind_turn] = [turns[0] * (1.0 - ROUNDING), turns[1] * (1.0 + ROUNDING)];
@@ -314,8 +324,10 @@ impl Node {
             let at = |side: &[[f64; WIDTH]; 3]| side[axis][child];
             self.low[axis][child] = f64::min(at(&self.low), part.low[axis] - moved - margin);
             self.high[axis][child] = f64::max(at(&self.high), part.high[axis] - moved + margin);
-            self.slowest[axis][child] = f64::min(at(&self.slowest), part.velocity[axis] - part.slack);
-            self.fastest[axis][child] = f64::max(at(&self.fastest), part.velocity[axis] + part.slack);
+            self.slowest[axis][child] =
+                f64::min(at(&self.slowest), part.velocity[axis] - part.slack);
+            self.fastest[axis][child] =
+                f64::max(at(&self.fastest), part.velocity[axis] + part.slack);
         }
         self.slack[child] = f64::max(self.slack[child], part.slack);
     }

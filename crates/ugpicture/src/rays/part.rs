@@ -104,7 +104,8 @@ impl Part {
         let triangle = |&row: &u32| whole_triangle(scene, row);
         let cut = |&row: &u32| face_triangles(scene, rest, row);
         let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
-        let mut triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
+        let mut triangles =
+            triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
         let (places, corners) = vertices(&triangles, rest, known);
         let bvh = Bvh::new(&places, &corners);
         let round = |row: u32| {
@@ -113,7 +114,8 @@ impl Part {
             let corners = *scene.face_corners(face).first_chunk()?;
             Some((FaceTriangle { face: row, corners, is_loose: false }, shape))
         };
-        let (corners_of_rounds, shapes): (Vec<_>, _) = round_rows.into_iter().filter_map(round).unzip();
+        let (corners_of_rounds, shapes): (Vec<_>, _) =
+            round_rows.into_iter().filter_map(round).unzip();
         triangles.extend(corners_of_rounds);
         let rounds = Rounds::new(shapes);
         let join = |(a, b): (DVec3, DVec3), (c, d): (DVec3, DVec3)| (a.min(c), b.max(d));
@@ -121,7 +123,16 @@ impl Part {
         let reach = bounds.map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         let outline = bounds.map(|bounds| Outline::new(bounds, &frame));
         let motion = line.and_then(|line| WorldLineMotion::new(line, &bvh, &places, &corners));
-        Self { frame, motion, bvh, triangles, rounds, bounds, clearance: CLEARANCE * reach, outline }
+        Self {
+            frame,
+            motion,
+            bvh,
+            triangles,
+            rounds,
+            bounds,
+            clearance: CLEARANCE * reach,
+            outline,
+        }
     }
 
     /// Visits the faces of a body on a world line that a ray crosses, in any order. `visit` returns
@@ -179,7 +190,10 @@ impl Part {
 
     /// The least and greatest coordinates of each triangle or round face, in the rest frame, with
     /// the row of the face. `place`: of a corner.
-    pub fn boxes(&self, place: impl Fn(VertexId) -> DVec3) -> impl Iterator<Item = (u32, [DVec3; 2])> {
+    pub fn boxes(
+        &self,
+        place: impl Fn(VertexId) -> DVec3,
+    ) -> impl Iterator<Item = (u32, [DVec3; 2])> {
         let first_round = self.first_round();
         self.triangles.iter().enumerate().map(move |(row, triangle)| {
             let [a, b, c] = triangle.corners.map(&place);
@@ -199,7 +213,13 @@ impl Part {
         let reach = low.abs().max(high.abs()).max_element();
         let size = (high - low).max_element();
         let corners = std::array::from_fn(corner);
-        MovingBox::new(corners, self.frame.velocity().beta(), self.frame.velocity().gamma(), size, reach)
+        MovingBox::new(
+            corners,
+            self.frame.velocity().beta(),
+            self.frame.velocity().gamma(),
+            size,
+            reach,
+        )
     }
 
     /// The range of parameters that begins outside the surface at the ray's origin.
@@ -257,7 +277,14 @@ impl Part {
 
     pub(super) fn intersection(&self, part: usize, hit: ugbvh::Hit) -> Intersection {
         let triangle = self.triangles[hit.triangle as usize];
-        Intersection { part, s: hit.t, own_time: 0.0, triangle, row: hit.triangle, weights: [hit.u, hit.v] }
+        Intersection {
+            part,
+            s: hit.t,
+            own_time: 0.0,
+            triangle,
+            row: hit.triangle,
+            weights: [hit.u, hit.v],
+        }
     }
 
     /// The even-odd rule at a point of a face.
@@ -275,7 +302,9 @@ impl Part {
         };
         let [x, y] = flat(point);
         let mut is_inside = false;
-        for [from, to] in face_edges(scene, face).map(|edge| edge.map(|end| flat(rest[end.index()]))) {
+        for [from, to] in
+            face_edges(scene, face).map(|edge| edge.map(|end| flat(rest[end.index()])))
+        {
             if (from[1] > y) != (to[1] > y)
                 && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
             {
@@ -289,7 +318,11 @@ impl Part {
 /// The places of the vertices of some triangles alone, and the rows of their corners among them.
 /// `rows`: for each vertex of the scene, its row in its part, as far as it is known, else
 /// `u32::MAX`.
-fn vertices(triangles: &[FaceTriangle], rest: &[DVec3], rows: &mut [u32]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+fn vertices(
+    triangles: &[FaceTriangle],
+    rest: &[DVec3],
+    rows: &mut [u32],
+) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut places = Vec::new();
     let mut row = |corner: VertexId| {
         let row = &mut rows[corner.index()];
@@ -306,7 +339,9 @@ fn vertices(triangles: &[FaceTriangle], rest: &[DVec3], rows: &mut [u32]) -> (Ve
 
 /// A face with three corners, which need not be cut.
 fn whole_triangle(scene: &Scene, row: u32) -> Option<FaceTriangle> {
-    let &[a, b, c] = scene.contours.corners(scene.faces[row as usize].contours.clone()) else { return None };
+    let &[a, b, c] = scene.contours.corners(scene.faces[row as usize].contours.clone()) else {
+        return None;
+    };
     Some(FaceTriangle { face: row, corners: [a, b, c], is_loose: false })
 }
 
@@ -331,7 +366,9 @@ fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> 
             let mut all = Vec::with_capacity(corners.len());
             for contour in scene.face_contours(face) {
                 let n = contour.len() as u32;
-                all.extend((0..n).map(|side| triangle([0, first + side, first + (side + 1) % n], true)));
+                all.extend(
+                    (0..n).map(|side| triangle([0, first + side, first + (side + 1) % n], true)),
+                );
                 first += n;
             }
             all

@@ -74,7 +74,9 @@ impl PastRay {
     pub fn in_part(&self, row: usize, frame: &RestFrame) -> (DVec3, DVec3) {
         match self.start {
             Start::Eye => (DVec3::ZERO, frame.light_to_rest(self.step.x)),
-            Start::Surface { part, place } if part == row => (place, frame.rest_from_camera(self.step).x),
+            Start::Surface { part, place } if part == row => {
+                (place, frame.rest_from_camera(self.step).x)
+            }
             _ => (frame.rest_from_camera(self.origin).x, frame.rest_from_camera(self.step).x),
         }
     }

@@ -37,14 +37,17 @@ impl Rounds {
         let all: Vec<Round> = shapes.into_iter().map(round).collect();
         let corners = all.iter().flat_map(|round| {
             let [low, high] = round.shape.bounds();
-            let margin = MARGIN * ((high - low).max_element() + low.abs().max(high.abs()).max_element());
+            let margin =
+                MARGIN * ((high - low).max_element() + low.abs().max(high.abs()).max_element());
             let ends = [low - margin, high + margin];
-            let corner =
-                move |idx: usize| DVec3::from_array([0, 1, 2].map(|axis| ends[idx >> axis & 1][axis]));
+            let corner = move |idx: usize| {
+                DVec3::from_array([0, 1, 2].map(|axis| ends[idx >> axis & 1][axis]))
+            };
             (0..8).map(corner)
         });
         // Sides of a box; the numbers of corners have a bit for each axis.
-        let sides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+        let sides =
+            [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
         let triangles = (0..all.len() as u32).flat_map(|row| {
             sides.into_iter().flat_map(move |[a, b, c, d]| {
                 [[a, b, c], [a, c, d]].map(|triangle| triangle.map(|corner| 8 * row + corner))
@@ -157,7 +160,8 @@ impl Round {
                 } else {
                     [0.0, 1.0].map(|z| at_plane(from.z - z, step.z))
                 };
-                let [enters, leaves] = [enters.max(ends[0].min(ends[1])), leaves.min(ends[0].max(ends[1]))];
+                let [enters, leaves] =
+                    [enters.max(ends[0].min(ends[1])), leaves.min(ends[0].max(ends[1]))];
                 if enters < leaves { [Some(enters), Some(leaves)] } else { [None; 2] }
             }
         }

@@ -96,7 +96,8 @@ impl World {
                 triangles_of[triangle.face as usize] = [part as u32, row as u32];
             }
         }
-        let outside = (0..scene.faces.len() as u32).into_par_iter().map(|face| faces.outside(face)).collect();
+        let outside =
+            (0..scene.faces.len() as u32).into_par_iter().map(|face| faces.outside(face)).collect();
         Self { parts, n_inertial, planes, outside, triangles_of, boxes }
     }
 
@@ -120,7 +121,12 @@ impl World {
     /// The latest event of the past at which light that follows the ray left a face, (P22), for
     /// parameters in a range.
     #[inline]
-    pub fn closest(&self, faces: Faces<'_>, ray: &PastRay, range: Range<f64>) -> Option<Intersection> {
+    pub fn closest(
+        &self,
+        faces: Faces<'_>,
+        ray: &PastRay,
+        range: Range<f64>,
+    ) -> Option<Intersection> {
         let mut best: Option<Intersection> = None;
         let visit = |row: usize, best: &mut Option<Intersection>| {
             let part = &self.parts[row];
@@ -146,7 +152,12 @@ impl World {
     /// Of the faces that share the plane of `nearest` and that the ray meets there, the first in
     /// the scene.
     #[inline]
-    fn first_in_plane(&self, faces: Faces<'_>, ray: &PastRay, nearest: Intersection) -> Intersection {
+    fn first_in_plane(
+        &self,
+        faces: Faces<'_>,
+        ray: &PastRay,
+        nearest: Intersection,
+    ) -> Intersection {
         let plane = |found: &Intersection| self.planes.get(found.triangle.face as usize).copied();
         if plane(&nearest).is_none_or(|plane| plane == 0) {
             return nearest;
@@ -193,7 +204,13 @@ impl World {
 
     /// The inertial faces as they are seen through a pinhole. `view`: has samples as its picture
     /// coordinates.
-    pub fn outlines(&self, faces: Faces<'_>, frames: &RestFrames, view: &View, tiles: Tiles) -> Outlines {
+    pub fn outlines(
+        &self,
+        faces: Faces<'_>,
+        frames: &RestFrames,
+        view: &View,
+        tiles: Tiles,
+    ) -> Outlines {
         let Faces { scene, rest } = faces;
         let of = RestFaces { scene, rest, frames, planes: &self.planes };
         Outlines::new(of, view, tiles, |face| frames.world_line(face.body).is_none())
@@ -221,7 +238,9 @@ impl World {
             // Of inertial faces in one plane, outlines find the first.
             let found = self.before(faces, ray, range.clone(), on_face);
             first.push(match found {
-                Some(found) if found.part >= self.n_inertial => Some(self.first_in_plane(faces, ray, found)),
+                Some(found) if found.part >= self.n_inertial => {
+                    Some(self.first_in_plane(faces, ray, found))
+                }
                 _ => found,
             });
         }
@@ -241,19 +260,22 @@ impl World {
         let step = frame.light_to_rest(ray.step.x);
         let (mut best, mut most) = (None, f64::NEG_INFINITY);
         let last = last.filter(|last| last.triangle.face == face).map(|last| last.row);
-        let all = (first..).take_while(|&row| triangles.get(row as usize).is_some_and(|it| it.face == face));
+        let all = (first..)
+            .take_while(|&row| triangles.get(row as usize).is_some_and(|it| it.face == face));
         for row in last.into_iter().chain(all) {
             let triangle = triangles[row as usize];
             let [a, b, c] = triangle.corners.map(|corner| faces.rest[corner.index()]);
             // The weights of corners are proportional to the products of the ray with the planes
             // through the eye and the opposite sides.
-            let products = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from).dot(step));
+            let products =
+                [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from).dot(step));
             let part_of = 1.0 / (products[0] + products[1] + products[2]);
             let weights = products.map(|product| product * part_of);
             let least = weights[0].min(weights[1]).min(weights[2]);
             if least > most {
                 let normal = (b - a).cross(c - a);
-                (best, most) = (Some((row, triangle, weights, a.dot(normal) / step.dot(normal))), least);
+                (best, most) =
+                    (Some((row, triangle, weights, a.dot(normal) / step.dot(normal))), least);
             }
             if least >= 0.0 {
                 break;
@@ -426,14 +448,17 @@ impl World {
                 }
                 visit_any(found)
             })?;
-            part.rounds.visit(&ray, range, |s, round| visit_any(part.round_intersection(row, s, round)))
+            part.rounds
+                .visit(&ray, range, |s, round| visit_any(part.round_intersection(row, s, round)))
         };
         let inertial = match self.boxes_for(ray, &range) {
             None => (0..self.n_inertial).try_for_each(&mut visit),
             Some((boxes, rays)) => {
                 // In the order of rows, so that products of transmittances are the same.
                 let times = ray.times(&range);
-                if let Some(parts) = corridor.and_then(|corridor| corridor.parts(boxes, &rays, times.end)) {
+                if let Some(parts) =
+                    corridor.and_then(|corridor| corridor.parts(boxes, &rays, times.end))
+                {
                     parts.iter().copied().try_for_each(&mut visit)
                 } else {
                     let mut parts = Vec::new();

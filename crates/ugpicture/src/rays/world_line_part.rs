@@ -51,12 +51,14 @@ impl SeenMesh {
         points: &[DVec3],
         corners: &[[u32; 3]],
     ) -> Option<Self> {
-        let seen = |point: &DVec3| line.light(*point, Event::ORIGIN).ok().map(|seen| (*point, seen));
+        let seen =
+            |point: &DVec3| line.light(*point, Event::ORIGIN).ok().map(|seen| (*point, seen));
         let n_triangles = corners.len();
         let seen: Vec<_> = points.par_iter().map(seen).collect::<Option<_>>()?;
         let corners = |row: usize| corners[row].map(|row| seen[row as usize]);
-        let triangle =
-            |row: usize, levels| line.seen_triangle(tube, passages, &corners(row), Event::ORIGIN, levels);
+        let triangle = |row: usize, levels| {
+            line.seen_triangle(tube, passages, &corners(row), Event::ORIGIN, levels)
+        };
         let rows = 0..n_triangles;
         let mut triangles: Vec<SeenTriangle> =
             rows.into_par_iter().map(|row| triangle(row, 0)).collect::<Option<_>>()?;
@@ -91,7 +93,12 @@ pub struct CurveHit {
 impl WorldLineMotion {
     /// `points`: those of the body; `corners`: of the triangles of the hierarchy. `None` if the
     /// motion is inertial.
-    pub fn new(line: &Arc<WorldLine>, bvh: &Bvh, points: &[DVec3], corners: &[[u32; 3]]) -> Option<Self> {
+    pub fn new(
+        line: &Arc<WorldLine>,
+        bvh: &Bvh,
+        points: &[DVec3],
+        corners: &[[u32; 3]],
+    ) -> Option<Self> {
         let tube = line.tube(points.iter().copied())?;
         let seen_by_eye = line.smooth_stretches(&tube, Event::ORIGIN).unwrap_or_default();
         let seen = SeenMesh::new(line, &tube, &seen_by_eye, bvh, points, corners);
@@ -165,20 +172,28 @@ impl WorldLineMotion {
         seen.triangles.visit(bvh, &line, range, |candidate| {
             let own_times = &seen.own_times[candidate.index() as usize];
             for passage in &self.seen_by_eye {
-                let Some((stretch, of_passage)) = self.line.stretch(passage, ray.step) else { break };
-                let parameters = -own_times.end.min(of_passage.end)..-own_times.start.max(of_passage.start);
+                let Some((stretch, of_passage)) = self.line.stretch(passage, ray.step) else {
+                    break;
+                };
+                let parameters =
+                    -own_times.end.min(of_passage.end)..-own_times.start.max(of_passage.start);
                 if parameters.start >= parameters.end {
                     continue;
                 }
-                candidate.visit_on_curve(&StretchCurve(&stretch), parameters.clone(), seen.bend, |hit| {
-                    match visit_hit(&stretch, hit) {
-                        (Next::Everything, _) => {}
-                        // Triangles at the same place are visited, too.
-                        (Next::Nearer, s) => end = end.min(s.next_up()),
-                        (Next::Nothing, _) => end = f64::NEG_INFINITY,
-                    }
-                    parameters.end
-                });
+                candidate.visit_on_curve(
+                    &StretchCurve(&stretch),
+                    parameters.clone(),
+                    seen.bend,
+                    |hit| {
+                        match visit_hit(&stretch, hit) {
+                            (Next::Everything, _) => {}
+                            // Triangles at the same place are visited, too.
+                            (Next::Nearer, s) => end = end.min(s.next_up()),
+                            (Next::Nothing, _) => end = f64::NEG_INFINITY,
+                        }
+                        parameters.end
+                    },
+                );
             }
             end
         });

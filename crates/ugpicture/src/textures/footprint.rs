@@ -22,7 +22,11 @@ impl SurfaceElementPlane<'_> {
     /// across and down. `to_body`: from the axes of the frame to those of the body.  Eq. (P50)
     ///
     /// The element rests in its frame, so it does not matter when each ray meets its plane.
-    pub fn steps(&self, neighbours: [PastRay; 2], to_body: impl Fn(DVec3) -> DVec3) -> [[f64; 2]; 2] {
+    pub fn steps(
+        &self,
+        neighbours: [PastRay; 2],
+        to_body: impl Fn(DVec3) -> DVec3,
+    ) -> [[f64; 2]; 2] {
         neighbours.map(|ray| self.weights(to_body(self.met(&ray).1)))
     }
 
@@ -30,7 +34,8 @@ impl SurfaceElementPlane<'_> {
     /// frame.
     pub fn met(&self, ray: &PastRay) -> (f64, DVec3) {
         let before = Event { t: ray.origin.t - self.event.t, x: ray.origin.x - self.event.x };
-        let (from, way) = (self.frame.rest_from_camera(before).x, self.frame.rest_from_camera(ray.step).x);
+        let (from, way) =
+            (self.frame.rest_from_camera(before).x, self.frame.rest_from_camera(ray.step).x);
         let s = -self.normal.dot(from) / self.normal.dot(way);
         (s, from + s * way)
     }

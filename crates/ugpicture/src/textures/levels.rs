@@ -62,7 +62,8 @@ impl Levels {
         let [red, green, blue, alpha] = match pixels {
             Pixels::Srgb(pixels) => {
                 let [red, green, blue, alpha] = pixels[at];
-                let [red, green, blue] = [red, green, blue].map(|byte| self.decoded[usize::from(byte)]);
+                let [red, green, blue] =
+                    [red, green, blue].map(|byte| self.decoded[usize::from(byte)]);
                 [red, green, blue, if alpha == 255 { 1.0 } else { f32::from(alpha) / 255.0 }]
             }
             Pixels::Light(pixels) => {
@@ -132,7 +133,8 @@ impl Levels {
             let at = row * width + column;
             other.map_or_else(|| self.base_texel(at), |level| level.texels[at])
         };
-        let [a, b, c, d] = [texel(left, top), texel(right, top), texel(left, bottom), texel(right, bottom)];
+        let [a, b, c, d] =
+            [texel(left, top), texel(right, top), texel(left, bottom), texel(right, bottom)];
         std::array::from_fn(|at| {
             let (upper, lower) = (a[at] + x * (b[at] - a[at]), c[at] + x * (d[at] - c[at]));
             upper + y * (lower - upper)
@@ -148,7 +150,8 @@ fn axes([a, b]: [DVec2; 2]) -> (DVec2, f64) {
     let square = mean + (half * half + xy * xy).sqrt();
     let length = square.sqrt();
     // Of the two forms of the direction, the one without cancellation.
-    let direction = if half >= 0.0 { DVec2::new(square - yy, xy) } else { DVec2::new(xy, square - xx) };
+    let direction =
+        if half >= 0.0 { DVec2::new(square - yy, xy) } else { DVec2::new(xy, square - xx) };
     let direction = direction.try_normalize().unwrap_or(DVec2::X);
     let width = if length > 0.0 { a.perp_dot(b).abs() / length } else { 0.0 };
     (length * direction, width)
@@ -177,9 +180,14 @@ fn neighbours((place, side, wrap): (f64, usize, Wrap)) -> (usize, usize, f32) {
 }
 
 /// A level of half the size: each texel is the mean of the area that it covers.
-fn halved(size: [usize; 2], half: [usize; 2], texel: impl Fn(usize) -> [f32; 4]) -> Box<[[f32; 4]]> {
-    let [columns, rows] =
-        [0, 1].map(|axis| (0..half[axis]).map(|at| covered(at, half[axis], size[axis])).collect::<Vec<_>>());
+fn halved(
+    size: [usize; 2],
+    half: [usize; 2],
+    texel: impl Fn(usize) -> [f32; 4],
+) -> Box<[[f32; 4]]> {
+    let [columns, rows] = [0, 1].map(|axis| {
+        (0..half[axis]).map(|at| covered(at, half[axis], size[axis])).collect::<Vec<_>>()
+    });
     let mut texels = Vec::with_capacity(half[0] * half[1]);
     for row in &rows {
         for column in &columns {
@@ -235,13 +243,20 @@ mod tests {
             let mean = |texels: &[[f32; 4]]| {
                 texels.iter().map(|it| f64::from(it[0])).sum::<f64>() / texels.len() as f64
             };
-            let base: Vec<_> = (0..(size[0] * size[1]) as usize).map(|at| levels.base_texel(at)).collect();
+            let base: Vec<_> =
+                (0..(size[0] * size[1]) as usize).map(|at| levels.base_texel(at)).collect();
             for level in &levels.others {
-                assert!((mean(&level.texels) / mean(&base) - 1.0).abs() < 1e-6, "{size:?} {:?}", level.size);
+                assert!(
+                    (mean(&level.texels) / mean(&base) - 1.0).abs() < 1e-6,
+                    "{size:?} {:?}",
+                    level.size
+                );
             }
             // Footprints of many pictures have the mean, and so have those without an end.
             for step in [10.0, 1e30, f64::NAN, f64::INFINITY] {
-                assert!((red(&levels, [0.3, 0.8], step, Wrap::Repeat) / mean(&base) - 1.0).abs() < 1e-6);
+                assert!(
+                    (red(&levels, [0.3, 0.8], step, Wrap::Repeat) / mean(&base) - 1.0).abs() < 1e-6
+                );
             }
         }
     }
@@ -275,11 +290,14 @@ mod tests {
     #[test]
     fn probes_follow_the_long_axis() {
         let levels = grey([64, 64], |x, _| (x % 2) as f32);
-        let sample =
-            |steps: [DVec2; 2]| levels.sample(DVec2::new(0.5 / 64.0, 0.5), steps, [Wrap::Repeat; 2])[0];
+        let sample = |steps: [DVec2; 2]| {
+            levels.sample(DVec2::new(0.5 / 64.0, 0.5), steps, [Wrap::Repeat; 2])[0]
+        };
         let short = DVec2::new(0.5 / 64.0, 0.0);
         assert!(sample([short, DVec2::new(0.0, 12.0 / 64.0)]) < 1e-6);
-        assert!((sample([DVec2::new(12.0 / 64.0, 0.0), DVec2::new(0.0, 0.5 / 64.0)]) - 0.5).abs() < 0.1);
+        assert!(
+            (sample([DVec2::new(12.0 / 64.0, 0.0), DVec2::new(0.0, 0.5 / 64.0)]) - 0.5).abs() < 0.1
+        );
         // Two nearly parallel steps are a long thin ellipse, too.
         let slanted = [DVec2::new(0.4 / 64.0, 12.0 / 64.0), DVec2::new(-0.4 / 64.0, 12.0 / 64.0)];
         assert!(sample(slanted) < 0.3, "{}", sample(slanted));

@@ -70,12 +70,14 @@ impl Textures {
         // The bytes are missing if the files of the scene were not read.
         let is_drawn = |texture: &&Texture| {
             let mut faces = scene.faces.iter();
-            let has = |color| color == texture.color || scene.emitted_by(color) == Some(texture.color);
+            let has =
+                |color| color == texture.color || scene.emitted_by(color) == Some(texture.color);
             !texture.image.bytes.is_empty() && faces.any(|face| face.color.is_some_and(has))
         };
         let drawn: Vec<&Texture> = scene.textures.iter().filter(is_drawn).collect();
         // Each picture is decoded once. Texels are kept with alpha only where it counts.
-        let key = |texture: &Texture| (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
+        let key =
+            |texture: &Texture| (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
         let mut pictures: Vec<&Texture> = Vec::new();
         for texture in &drawn {
             if !pictures.iter().any(|known| key(known) == key(texture)) {
@@ -83,12 +85,15 @@ impl Textures {
             }
         }
         let room = MOST_BYTES / pictures.len().max(1) as u64;
-        let levels: Vec<Arc<Levels>> =
-            pictures.par_iter().map(|texture| decoded(scene, texture, room)).collect::<Result<_, _>>()?;
+        let levels: Vec<Arc<Levels>> = pictures
+            .par_iter()
+            .map(|texture| decoded(scene, texture, room))
+            .collect::<Result<_, _>>()?;
         let mut of_color = vec![None; scene.colors.len()];
         let mut maps = Vec::new();
         for texture in drawn {
-            let row = pictures.iter().position(|known| key(known) == key(texture)).unwrap_or_default();
+            let row =
+                pictures.iter().position(|known| key(known) == key(texture)).unwrap_or_default();
             of_color[texture.color.index()] = Some(maps.len() as u32);
             maps.push(TextureMap { levels: Arc::clone(&levels[row]), texture: texture.clone() });
         }
@@ -96,7 +101,8 @@ impl Textures {
             let name = scene.names.get(scene.colors[id.index()].name);
             scene.stage.mixtures.is_some_and(|mixtures| mixtures.contains(name))
         };
-        let tint = |id: ColorId| if is_mixture(id) { DVec3::ONE } else { light(id).max(DVec3::ZERO) };
+        let tint =
+            |id: ColorId| if is_mixture(id) { DVec3::ONE } else { light(id).max(DVec3::ZERO) };
         let tints = (0..scene.colors.len()).map(ColorId::from_index).map(tint).collect();
         Ok(Self { maps, of_color, tints })
     }
@@ -181,7 +187,8 @@ impl TextureMap {
         steps: impl FnOnce() -> [[f64; 2]; 2],
     ) -> Option<Texel> {
         let vertices = corners.map(|corner| &scene.vertices[corner.index()]);
-        let place = |at: usize| vertices[at].uv.map(|[u, v]| DVec2::new(f64::from(u), f64::from(v)));
+        let place =
+            |at: usize| vertices[at].uv.map(|[u, v]| DVec2::new(f64::from(u), f64::from(v)));
         let (a, b, c) = (place(0)?, place(1)?, place(2)?);
         let (along, beside) = (b - a, c - a);
         let uv = a + second * along + third * beside;
@@ -190,7 +197,8 @@ impl TextureMap {
         let [red, green, blue, opacity] = self.levels.sample(uv, steps, wrap);
         let [f_red, f_green, f_blue, f_alpha] = factor.map(f64::from);
         let mut light = DVec3::new(red * f_red, green * f_green, blue * f_blue);
-        let tint = |at: usize| vertices[at].color.zip(tints).map(|(color, tints)| tints[color.index()]);
+        let tint =
+            |at: usize| vertices[at].color.zip(tints).map(|(color, tints)| tints[color.index()]);
         if let (Some(a), Some(b), Some(c)) = (tint(0), tint(1), tint(2)) {
             light *= a + second * (b - a) + third * (c - a);
         }
@@ -205,8 +213,10 @@ impl TextureMap {
 }
 
 fn decoded(scene: &Scene, texture: &Texture, room: u64) -> Result<Arc<Levels>, TextureError> {
-    let limits =
-        PictureLimits { bytes: room.min(PictureLimits::default().bytes), ..PictureLimits::default() };
+    let limits = PictureLimits {
+        bytes: room.min(PictureLimits::default().bytes),
+        ..PictureLimits::default()
+    };
     let picture = read_picture(&texture.image.bytes, &limits).map_err(|error| {
         let color = scene.names.get(scene.colors[texture.color.index()].name).to_owned();
         let file = texture.image.file.clone().unwrap_or_else(|| color.clone());

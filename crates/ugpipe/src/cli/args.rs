@@ -131,10 +131,15 @@ impl CommonArgs {
             (self.allow_execute, "--allow-execute"),
             (self.allow_outside, "--allow-outside"),
         ];
-        let mut words: Vec<String> =
-            flags.iter().filter(|(is_given, _)| *is_given).map(|(_, word)| (*word).to_owned()).collect();
+        let mut words: Vec<String> = flags
+            .iter()
+            .filter(|(is_given, _)| *is_given)
+            .map(|(_, word)| (*word).to_owned())
+            .collect();
         words.extend(
-            self.limit.iter().flat_map(|(name, value)| ["--limit".to_owned(), format!("{name}={value}")]),
+            self.limit
+                .iter()
+                .flat_map(|(name, value)| ["--limit".to_owned(), format!("{name}={value}")]),
         );
         words
     }
@@ -159,7 +164,8 @@ fn is_dash(path: &Path) -> bool {
 fn limit(word: &str) -> Result<(String, u64), String> {
     let (name, value) = word.split_once('=').ok_or("write NAME=N")?;
     let is_whole = !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit());
-    let value = value.parse().ok().filter(|_| is_whole).ok_or("N must be a whole number below 2^64")?;
+    let value =
+        value.parse().ok().filter(|_| is_whole).ok_or("N must be a whole number below 2^64")?;
     Ok((name.to_owned(), value))
 }
 

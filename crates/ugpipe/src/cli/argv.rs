@@ -81,7 +81,10 @@ pub(crate) fn rewrite(
             continue;
         }
         if let (false, Some(number)) = (option.arg.get_action().takes_values(), number) {
-            return Err(StrayNumber { option: word.to_string_lossy().into_owned(), number: number.clone() });
+            return Err(StrayNumber {
+                option: word.to_string_lossy().into_owned(),
+                number: number.clone(),
+            });
         }
         rewritten.push(option.with_two_dashes(word));
         if !option.has_value {
@@ -105,7 +108,8 @@ impl<'a> LongOption<'a> {
         let after_dashes = after_dash.strip_prefix(b"-");
         let name_and_value = after_dashes.unwrap_or(after_dash);
         let equals = name_and_value.iter().position(|&byte| byte == b'=');
-        let name = str::from_utf8(&name_and_value[..equals.unwrap_or(name_and_value.len())]).ok()?;
+        let name =
+            str::from_utf8(&name_and_value[..equals.unwrap_or(name_and_value.len())]).ok()?;
         // Short options clap parses itself.
         let is_short = |arg: &Arg| arg.get_short().is_some_and(|letter| name == letter.to_string());
         if command.get_arguments().any(is_short) {
@@ -140,27 +144,35 @@ fn with_dash(word: &OsStr) -> OsString {
 fn is_unknown(command: &Command, word: &OsStr) -> bool {
     let Some(letters) = word.to_str().and_then(|word| word.strip_prefix('-')) else { return false };
     let short = |letter: char| command.get_arguments().find(|arg| arg.get_short() == Some(letter));
-    let takes_value = |letter: char| short(letter).is_some_and(|arg| arg.get_action().takes_values());
+    let takes_value =
+        |letter: char| short(letter).is_some_and(|arg| arg.get_action().takes_values());
     letters.len() > 1
         && letters.starts_with(|first: char| first.is_ascii_alphabetic() && !takes_value(first))
         && !letters.chars().all(|letter| short(letter).is_some())
 }
 
 fn has_long_name(arg: &Arg, name: &str) -> bool {
-    arg.get_long() == Some(name) || arg.get_all_aliases().is_some_and(|aliases| aliases.contains(&name))
+    arg.get_long() == Some(name)
+        || arg.get_all_aliases().is_some_and(|aliases| aliases.contains(&name))
 }
 
 /// The long name of the option that other programs call by one letter, if `command` has it and not
 /// that letter; else `word`. `-v` before a number is not `--verbose`, but a mistake.
 fn abbreviated(command: &Command, word: OsString, precedes_number: bool) -> OsString {
-    const LETTERS: [(&str, char, &str); 5] =
-        [("-o", 'o', "fo"), ("-i", 'i', "fi"), ("-q", 'q', "qt"), ("-v", 'v', "vb"), ("-j", 'j', "nt")];
+    const LETTERS: [(&str, char, &str); 5] = [
+        ("-o", 'o', "fo"),
+        ("-i", 'i', "fi"),
+        ("-q", 'q', "qt"),
+        ("-v", 'v', "vb"),
+        ("-j", 'j', "nt"),
+    ];
     let Some((_, letter, name)) = LETTERS.into_iter().find(|(dashed, ..)| word == *dashed) else {
         return word;
     };
     let is_free = command.get_arguments().all(|arg| arg.get_short() != Some(letter));
-    let is_meant =
-        |arg: &Arg| has_long_name(arg, name) && (arg.get_action().takes_values() || !precedes_number);
+    let is_meant = |arg: &Arg| {
+        has_long_name(arg, name) && (arg.get_action().takes_values() || !precedes_number)
+    };
     if is_free && command.get_arguments().any(is_meant) { format!("--{name}").into() } else { word }
 }
 
@@ -169,15 +181,17 @@ fn abbreviated(command: &Command, word: OsString, precedes_number: bool) -> OsSt
 fn joined_numbers(arg: &Arg, word: &OsStr) -> Option<Vec<OsString>> {
     let range = arg.get_num_args().filter(|range| range.max_values() > 1)?;
     let word = word.to_str()?;
-    let numbers =
-        rows_in_time(word).unwrap_or_else(|| word.split([',', 'x', '×']).map(OsString::from).collect());
-    let is_whole = numbers.len() > 1 && (range.min_values()..=range.max_values()).contains(&numbers.len());
+    let numbers = rows_in_time(word)
+        .unwrap_or_else(|| word.split([',', 'x', '×']).map(OsString::from).collect());
+    let is_whole =
+        numbers.len() > 1 && (range.min_values()..=range.max_values()).contains(&numbers.len());
     (is_whole && numbers.iter().all(|number| is_number(number))).then_some(numbers)
 }
 
 /// The words `0..0`, `0..0.9`, `0..0` for `0 0 0 .. 0 .9 0`: each number with its values in time.
 fn rows_in_time(word: &str) -> Option<Vec<OsString>> {
-    let rows: Vec<Vec<&str>> = word.split("..").map(|row| row.split_whitespace().collect()).collect();
+    let rows: Vec<Vec<&str>> =
+        word.split("..").map(|row| row.split_whitespace().collect()).collect();
     let n_numbers = rows.first()?.len();
     if rows.len() < 2 || n_numbers < 2 || rows.iter().any(|row| row.len() != n_numbers) {
         return None;
@@ -232,11 +246,19 @@ fn join_times(arg: &Arg, words: &mut VecDeque<OsString>) {
 /// all our programs, which distinguishes them from file names. A negative number is the value of an
 /// option with one value even if the option takes only positive ones, and is attached to it by `=`:
 /// clap would take it for an option.
-fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out: &mut Vec<OsString>) {
-    let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
+fn copy_values(
+    command: &Command,
+    arg: &Arg,
+    words: &mut VecDeque<OsString>,
+    out: &mut Vec<OsString>,
+) {
+    let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else {
+        return;
+    };
     join_times(arg, words);
     if range == ValueRange::SINGLE
-        && let Some(value) = next_if(words, |word| !may_be_value(command, arg, word) && is_number(word))
+        && let Some(value) =
+            next_if(words, |word| !may_be_value(command, arg, word) && is_number(word))
         && let Some(option) = out.last_mut()
     {
         option.push("=");
@@ -252,7 +274,11 @@ fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out
     while n_taken < range.max_values() {
         let is_needed = n_taken < range.min_values();
         let belongs = |word: &OsString| {
-            if is_needed { may_be_value(command, arg, word) } else { is_number(word) || is_length(word) }
+            if is_needed {
+                may_be_value(command, arg, word)
+            } else {
+                is_number(word) || is_length(word)
+            }
         };
         let Some(value) = next_if(words, belongs) else { break };
         out.push(value);
@@ -265,7 +291,10 @@ fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out
 }
 
 /// The first word, removed, if it fulfils a condition.
-fn next_if(words: &mut VecDeque<OsString>, condition: impl FnOnce(&OsString) -> bool) -> Option<OsString> {
+fn next_if(
+    words: &mut VecDeque<OsString>,
+    condition: impl FnOnce(&OsString) -> bool,
+) -> Option<OsString> {
     words.front().is_some_and(condition).then(|| words.pop_front()).flatten()
 }
 
@@ -279,7 +308,8 @@ fn may_be_value(command: &Command, arg: &Arg, word: &OsStr) -> bool {
 
 /// True for options whose values may begin with a dash, as negative numbers do, but are no text.
 fn ends_at_options(arg: &Arg) -> bool {
-    let is_text = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name == "TEXT"));
+    let is_text =
+        arg.get_value_names().is_some_and(|names| names.iter().any(|name| name == "TEXT"));
     arg.is_allow_hyphen_values_set() && !is_text
 }
 
@@ -334,8 +364,11 @@ mod tests {
     /// Rewrites a line of words without blanks, and lets clap read it.
     fn parse(line: &str) -> (String, Result<clap::ArgMatches, clap::Error>) {
         let command = tool();
-        let words = rewrite(&command, format!("tool {line}").split_whitespace().map(OsString::from)).unwrap();
-        let rewritten = Vec::from_iter(words[1..].iter().map(|word| word.to_str().unwrap())).join(" ");
+        let words =
+            rewrite(&command, format!("tool {line}").split_whitespace().map(OsString::from))
+                .unwrap();
+        let rewritten =
+            Vec::from_iter(words[1..].iter().map(|word| word.to_str().unwrap())).join(" ");
         (rewritten, command.try_get_matches_from(words))
     }
 
@@ -393,8 +426,9 @@ mod tests {
 
     #[test]
     fn rows_become_values_of_each_number() {
-        let words =
-            |word: &str| rows_in_time(word).map(|words| words.join(" ".as_ref()).into_string().unwrap());
+        let words = |word: &str| {
+            rows_in_time(word).map(|words| words.join(" ".as_ref()).into_string().unwrap())
+        };
         assert_eq!(words("0 0 0 .. 0 .9 0").as_deref(), Some("0..0 0..0.9 0..0"));
         assert_eq!(words("1. 2..3 4 .. -5. 6").as_deref(), Some("1..3..-5 2..4..6"));
         for word in ["-10..10", "0 0 0", "0 0 .. 1", ".. 1 2", "a b"] {
@@ -442,8 +476,14 @@ mod tests {
             let error = parse(line).1.expect_err(line).to_string();
             assert_eq!(error.lines().next(), Some(expected), "{line}");
         }
-        check("-vel .9 0", "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided");
-        check("-vel .9 0 -gw", "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided");
+        check(
+            "-vel .9 0",
+            "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided",
+        );
+        check(
+            "-vel .9 0 -gw",
+            "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided",
+        );
         check("-ti -gw", "error: a value is required for '--ti <ti>' but none was supplied");
         check(
             "-vel .9 0 nan",
@@ -460,7 +500,10 @@ mod tests {
         check("-va 1 2 3 4", "error: unexpected argument '4' found");
         check("---gw", "error: unexpected argument '---gw' found");
         check("-q", "error: unexpected argument '-q' found");
-        check("-vel .9,0", "error: 3 values required for '--vel <vel> <vel> <vel>' but 1 was provided");
+        check(
+            "-vel .9,0",
+            "error: 3 values required for '--vel <vel> <vel> <vel>' but 1 was provided",
+        );
         check("-velo .9 0 0", "error: unexpected argument '--velo' found");
         check("-gx", "error: unexpected argument '--gx' found");
     }
@@ -471,7 +514,11 @@ mod tests {
             let words = format!("tool {line}");
             let rewritten = rewrite(&tool(), words.split_whitespace().map(OsString::from));
             let stray = rewritten.err().map(|stray| (stray.option, stray.number));
-            assert_eq!(stray, expected.map(|(option, number)| (option.into(), number.into())), "{line}");
+            assert_eq!(
+                stray,
+                expected.map(|(option, number)| (option.into(), number.into())),
+                "{line}"
+            );
         };
         check("-gw 0 ship.ug", Some(("-gw", "0")));
         check("--no-flux -.5", Some(("--no-flux", "-.5")));

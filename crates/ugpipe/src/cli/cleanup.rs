@@ -13,8 +13,8 @@ use std::thread;
 
 use rustix::process::{Pid, Signal, kill_process_group};
 use signal_hook::consts::{
-    SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM,
-    SIGXCPU, SIGXFSZ,
+    SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2,
+    SIGVTALRM, SIGXCPU, SIGXFSZ,
 };
 use signal_hook::flag;
 use signal_hook::iterator::Signals;
@@ -27,14 +27,16 @@ use crate::cli::stale::{self, lock};
 /// Signals that end a program and do not come from a fault in it. SIGKILL cannot be handled;
 /// SIGABRT ends a program without memory, see [`crate::main`].
 const SIGNALS: [i32; 12] = [
-    SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU,
+    SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2,
+    SIGVTALRM, SIGXCPU,
 ];
 
 /// More of them on Linux: SIGSTKFLT, SIGIO, SIGPWR and the real-time signals.
 const OF_LINUX: [std::ops::RangeInclusive<i32>; 3] = [16..=16, 29..=30, 34..=64];
 
 /// The files to remove. A signal is handled with this locked, so that nothing is created meanwhile.
-static LEFTOVERS: Mutex<Leftovers> = Mutex::new(Leftovers { files: BTreeSet::new(), groups: Vec::new() });
+static LEFTOVERS: Mutex<Leftovers> =
+    Mutex::new(Leftovers { files: BTreeSet::new(), groups: Vec::new() });
 
 struct Leftovers {
     files: BTreeSet<PathBuf>,
@@ -58,7 +60,10 @@ pub(crate) struct Temporary(NamedTempFile);
 impl Temporary {
     /// Creates one with `create`, in the folder of `target`. Before the first one in a folder,
     /// those that killed processes left there are deleted.
-    pub(crate) fn new(target: &Path, create: impl Fn() -> io::Result<NamedTempFile>) -> io::Result<Self> {
+    pub(crate) fn new(
+        target: &Path,
+        create: impl Fn() -> io::Result<NamedTempFile>,
+    ) -> io::Result<Self> {
         static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
         handle_signals();
         let folder = folder_of(target);
@@ -96,11 +101,13 @@ impl Temporary {
 
 /// True for names of temporary files: `.ug-a1b2C3.png`.
 fn is_temporary(name: &str) -> bool {
-    let Some((random, ending)) = name.strip_prefix(PREFIX).and_then(|rest| rest.split_at_checked(N_RANDOM))
+    let Some((random, ending)) =
+        name.strip_prefix(PREFIX).and_then(|rest| rest.split_at_checked(N_RANDOM))
     else {
         return false;
     };
-    random.bytes().all(|byte| byte.is_ascii_alphanumeric()) && (ending.is_empty() || ending.starts_with('.'))
+    random.bytes().all(|byte| byte.is_ascii_alphanumeric())
+        && (ending.is_empty() || ending.starts_with('.'))
 }
 
 /// A file that marks what one process works on. It is deleted when this is dropped, or by a signal.
@@ -128,7 +135,9 @@ impl Claim {
         let mut leftovers = leftovers();
         let opened = fs::OpenOptions::new().write(true).create(true).truncate(false).open(path);
         let file = match opened {
-            Ok(file) if matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)) => return None,
+            Ok(file) if matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)) => {
+                return None;
+            }
             Ok(file) => Some(file),
             Err(_) => None,
         };
@@ -255,7 +264,9 @@ mod tests {
         for name in [".ug-a1b2C3", ".ug-abcdef.png", ".ug-000000.tar.gz"] {
             assert!(is_temporary(name), "{name}");
         }
-        for name in ["ug-a1b2C3", ".ug-a1b2C", ".ug-a1b2C3x", ".ug-a1b2-3.png", ".ug-é12345", ".ug-"] {
+        for name in
+            ["ug-a1b2C3", ".ug-a1b2C", ".ug-a1b2C3x", ".ug-a1b2-3.png", ".ug-é12345", ".ug-"]
+        {
             assert!(!is_temporary(name), "{name}");
         }
     }

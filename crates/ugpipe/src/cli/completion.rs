@@ -22,7 +22,8 @@ pub(crate) fn words_of_shell(arguments: impl Iterator<Item = OsString>) -> Optio
 /// The completions of the last of these words, the first of which follows the name of the program:
 /// a line for each, with its meaning behind a tab, or a slash where files are meant.
 pub fn completions(manual: &Manual, words: &[String]) -> String {
-    let (typed, before) = words.split_last().map_or(("", words), |(last, before)| (last.as_str(), before));
+    let (typed, before) =
+        words.split_last().map_or(("", words), |(last, before)| (last.as_str(), before));
     let mut found: Vec<(&str, &str)> = Vec::new();
     let (option, command) = context(manual, before);
     let files = match option {
@@ -33,7 +34,8 @@ pub fn completions(manual: &Manual, words: &[String]) -> String {
         }
         None if typed.starts_with('-') => {
             for option in options(manual) {
-                found.extend(option.names.iter().map(|name| (name.as_str(), option.about.as_str())));
+                found
+                    .extend(option.names.iter().map(|name| (name.as_str(), option.about.as_str())));
             }
             false
         }
@@ -45,14 +47,18 @@ pub fn completions(manual: &Manual, words: &[String]) -> String {
                 }
                 None => {
                     let commands = manual.commands.iter();
-                    found.extend(commands.map(|command| (own_name(command), command.about.as_str())));
+                    found.extend(
+                        commands.map(|command| (own_name(command), command.about.as_str())),
+                    );
                 }
             }
             true
         }
     };
     let mut lines = String::new();
-    for (idx, (word, about)) in found.iter().enumerate().filter(|(_, (word, _))| word.starts_with(typed)) {
+    for (idx, (word, about)) in
+        found.iter().enumerate().filter(|(_, (word, _))| word.starts_with(typed))
+    {
         // Commands have the same options.
         if found[..idx].iter().all(|(other, _)| other != word) {
             lines += &format!("{word}\t{about}\n");
@@ -76,7 +82,8 @@ fn context<'m>(manual: &'m Manual, words: &[String]) -> (Option<&'m Entry>, Opti
             _ => {
                 option = options(manual).find(|option| is_named(option, word));
                 n_values = 0;
-                command = manual.commands.iter().find(|command| own_name(command) == word).or(command);
+                command =
+                    manual.commands.iter().find(|command| own_name(command) == word).or(command);
             }
         }
     }

@@ -26,7 +26,8 @@ fn place(common: &CommonArgs) -> Place {
     Place::Below(common.input().map_or(Path::new("."), folder_of).to_owned())
 }
 
-const EMPTY_INPUT: &str = "nothing came through the pipe: the program upstream failed, or wrote nothing";
+const EMPTY_INPUT: &str =
+    "nothing came through the pipe: the program upstream failed, or wrote nothing";
 
 fn within(limit: u64, input: Input) -> Result<Input, Failure> {
     if input.text.len() as u64 <= limit {
@@ -38,7 +39,8 @@ fn within(limit: u64, input: Input) -> Result<Input, Failure> {
 
 /// A file among those in memory: the one of this path, or else of this name in any folder.
 fn in_memory<'f>(files: &'f [Input], path: &Path) -> io::Result<&'f Input> {
-    let by_name = || files.iter().find(|file| Path::new(&file.name).file_name() == path.file_name());
+    let by_name =
+        || files.iter().find(|file| Path::new(&file.name).file_name() == path.file_name());
     let found = files.iter().find(|file| Path::new(&file.name) == path).or_else(by_name);
     found.ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "It is not among the given files"))
 }
@@ -146,7 +148,11 @@ impl Context {
             self.note("reading standard input; -h for help");
         }
         let input = self.read(self.input.as_deref(), limit)?;
-        if self.files.is_none() && self.input.is_none() && input.text.is_empty() && input::stdin_is_pipe() {
+        if self.files.is_none()
+            && self.input.is_none()
+            && input.text.is_empty()
+            && input::stdin_is_pipe()
+        {
             return Err(Failure::Failed(EMPTY_INPUT.to_owned()));
         }
         Ok(input)
@@ -259,10 +265,16 @@ impl Context {
     ///
     /// # Errors
     /// [`Failure::Write`] with the error of `fill`.
-    pub fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    pub fn write_with(
+        &mut self,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
         let begun = self.messages.elapsed();
         self.output.write_with(fill)?;
-        self.detail(&format!("writing took {:.3} s", (self.messages.elapsed() - begun).as_secs_f64()));
+        self.detail(&format!(
+            "writing took {:.3} s",
+            (self.messages.elapsed() - begun).as_secs_f64()
+        ));
         Ok(())
     }
 
@@ -341,7 +353,8 @@ impl Context {
     /// The output file, if it can be replaced while the program runs ([`Context::write_now`]):
     /// neither standard output nor a device or a pipe.
     pub fn replaceable_output(&self) -> Option<PathBuf> {
-        let is_device = |path: &Path| std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
+        let is_device =
+            |path: &Path| std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
         self.output.path().filter(|path| !is_device(path)).map(Path::to_owned)
     }
 

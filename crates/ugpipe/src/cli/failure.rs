@@ -105,10 +105,15 @@ impl fmt::Display for Failure {
                 }
             }
             Self::Write { name, error } if error.kind() == io::ErrorKind::NotFound => {
-                let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty());
+                let folder =
+                    Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty());
                 match folder {
                     Some(folder) => {
-                        write!(f, "cannot write `{name}`: there is no folder `{}`", folder.display())
+                        write!(
+                            f,
+                            "cannot write `{name}`: there is no folder `{}`",
+                            folder.display()
+                        )
                     }
                     None => write!(f, "cannot write `{name}`: {}", reason(error)),
                 }

@@ -41,7 +41,9 @@ impl Place {
     fn admit(&self, path: &Path) -> io::Result<PathBuf> {
         let real = fs::canonicalize(path).map_err(without_number)?;
         match self {
-            Self::Below(folder) if !real.starts_with(fs::canonicalize(folder).map_err(without_number)?) => {
+            Self::Below(folder)
+                if !real.starts_with(fs::canonicalize(folder).map_err(without_number)?) =>
+            {
                 Err(io::Error::new(io::ErrorKind::PermissionDenied, OUTSIDE))
             }
             _ => Ok(real),
@@ -164,9 +166,15 @@ mod tests {
     fn program_output_is_read_up_to_the_limit() {
         let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let ran = run_script("echo scene; echo why >&2", 100).unwrap();
-        assert_eq!(ran, ProgramOutput { text: b"scene\n".to_vec(), error_line: "why".into(), failure: None });
+        assert_eq!(
+            ran,
+            ProgramOutput { text: b"scene\n".to_vec(), error_line: "why".into(), failure: None }
+        );
         let ran = run_script("echo no >&2; echo more >&2; exit 3", 100).unwrap();
-        assert_eq!((ran.failure.as_deref(), ran.error_line.as_str()), (Some("exit status: 3"), "no"));
+        assert_eq!(
+            (ran.failure.as_deref(), ran.error_line.as_str()),
+            (Some("exit status: 3"), "no")
+        );
         let ran = run_script("kill -9 $$", 100).unwrap();
         assert!(ran.failure.unwrap().starts_with("signal: 9"));
         // Endless output on both streams.
@@ -189,7 +197,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");
         fs::write(&path, "0123456789").unwrap();
-        assert_eq!(run_program(&path, &Place::Anywhere, 9).map_err(words), Err("Permission denied".into()));
+        assert_eq!(
+            run_program(&path, &Place::Anywhere, 9).map_err(words),
+            Err("Permission denied".into())
+        );
         let read = |path: &Path, limit| read_file(path, &Place::Anywhere, limit);
         assert_eq!(read(&path, 4).unwrap(), b"0123");
         assert_eq!(read(&path, 10).unwrap(), b"0123456789");
@@ -222,10 +233,12 @@ mod tests {
             let text = read_file(&path(name), &place, 100).map_err(|error| error.to_string())?;
             Ok(String::from_utf8(text).unwrap())
         };
-        for name in ["in/file", "entry/file", "in/alias", "in/deep/../file", "in/folder/../in/file"] {
+        for name in ["in/file", "entry/file", "in/alias", "in/deep/../file", "in/folder/../in/file"]
+        {
             assert_eq!(read(name), Ok("public".to_owned()), "{name}");
         }
-        let outside = ["out", "in/../out", "in/link", "in/folder/out", "inner/out", "in/folder/../out"];
+        let outside =
+            ["out", "in/../out", "in/link", "in/folder/out", "inner/out", "in/folder/../out"];
         for name in outside.into_iter().chain(["/etc/passwd", "/dev/zero", "/proc/self/environ"]) {
             assert_eq!(read(name), Err(OUTSIDE.to_owned()), "{name}");
         }
@@ -233,7 +246,8 @@ mod tests {
         fs::write(path("program"), "#!/bin/sh\necho ran\n").unwrap();
         fs::set_permissions(path("program"), fs::Permissions::from_mode(0o755)).unwrap();
         symlink("../program", path("in/program")).unwrap();
-        let refused = run_program(&path("in/program"), &place, 9).map_err(|error| error.to_string());
+        let refused =
+            run_program(&path("in/program"), &place, 9).map_err(|error| error.to_string());
         assert_eq!(refused, Err(OUTSIDE.to_owned()));
         assert_eq!(run_program(&path("in/program"), &Place::Anywhere, 9).unwrap().text, b"ran\n");
     }

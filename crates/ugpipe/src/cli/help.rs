@@ -132,11 +132,13 @@ fn default(entry: &Entry) -> String {
 /// An option with everything about it.
 fn explained(entry: &Entry) -> String {
     let name = format!("{} {}", entry.names.join(", "), entry.syntax());
-    let mut text = format!("  {}\n{}", name.trim(), wrapped(&(entry.effect() + &default(entry)), INDENT));
+    let mut text =
+        format!("  {}\n{}", name.trim(), wrapped(&(entry.effect() + &default(entry)), INDENT));
     entry.details.iter().for_each(|paragraph| text += &format!("\n{}", wrapped(paragraph, INDENT)));
     let meanings = entry.words.iter().filter(|(_, meaning)| !meaning.is_empty());
-    let meanings: Vec<String> =
-        meanings.map(|(word, meaning)| wrapped(&format!("{word}: {meaning}"), INDENT + 2)).collect();
+    let meanings: Vec<String> = meanings
+        .map(|(word, meaning)| wrapped(&format!("{word}: {meaning}"), INDENT + 2))
+        .collect();
     if !meanings.is_empty() {
         text += &format!("\n{}", meanings.concat());
     }

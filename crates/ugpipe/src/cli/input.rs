@@ -21,9 +21,10 @@ const STDIN: &str = "<stdin>";
 /// Reads a file, or standard input if `path` is `None`: at most `limit` bytes.
 pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
     let (name, text) = match path {
-        Some(path) => {
-            (path.display().to_string(), File::open(path).and_then(|file| read_file_up_to(file, limit)))
-        }
+        Some(path) => (
+            path.display().to_string(),
+            File::open(path).and_then(|file| read_file_up_to(file, limit)),
+        ),
         None => (STDIN.to_owned(), stdin().and_then(|file| read_file_up_to(file, limit))),
     };
     match text {

@@ -111,10 +111,13 @@ pub(crate) fn words(matches: &ArgMatches, looks: &Looks) -> Vec<String> {
         Look::Shape => looks.shape,
         Look::Report => return Vec::new(),
     };
-    let presets = presets.iter().filter(|preset| !preset.is_replaced(matches) && (preset.suits)(matches));
+    let presets =
+        presets.iter().filter(|preset| !preset.is_replaced(matches) && (preset.suits)(matches));
     let words = |preset: &Preset| {
         let [name, values @ ..] = preset.words else { return Vec::new() };
-        std::iter::once(format!("--{name}")).chain(values.iter().map(|value| (*value).to_owned())).collect()
+        std::iter::once(format!("--{name}"))
+            .chain(values.iter().map(|value| (*value).to_owned()))
+            .collect()
     };
     presets.flat_map(words).collect()
 }

@@ -108,7 +108,9 @@ impl Manual {
         let named = |name: &str| {
             let mut names =
                 self.options().flat_map(|entry| entry.names.iter().map(move |name| (name, entry)));
-            names.find(|(other, _)| other.as_str() == name).map(|(name, entry)| (name.as_str(), entry))
+            names
+                .find(|(other, _)| other.as_str() == name)
+                .map(|(name, entry)| (name.as_str(), entry))
         };
         self.essential.iter().filter_map(|name| named(name)).collect()
     }
@@ -151,7 +153,12 @@ pub(crate) fn of_command(command: &Command, essential: &[&str], program: &str) -
         "[OPTIONS]".to_owned(),
     ];
     let values = arguments.iter().map(Entry::syntax);
-    let usage = parts.into_iter().chain(values).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
+    let usage = parts
+        .into_iter()
+        .chain(values)
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ");
     description.retain(|paragraph| !paragraph.is_empty());
     Manual {
         name,
@@ -178,8 +185,10 @@ fn entry(arg: &Arg) -> Entry {
     let takes_values = arg.get_action().takes_values();
     let words = arg.get_possible_values();
     let words = words.iter().filter(|word| takes_values && !word.is_hide_set());
-    let meaning = |text: Option<&clap::builder::StyledStr>| text.map(ToString::to_string).unwrap_or_default();
-    let defaults = arg.get_default_values().iter().map(|value| value.to_string_lossy().into_owned());
+    let meaning =
+        |text: Option<&clap::builder::StyledStr>| text.map(ToString::to_string).unwrap_or_default();
+    let defaults =
+        arg.get_default_values().iter().map(|value| value.to_string_lossy().into_owned());
     let (about, default) = match about.split_once(" [default: ") {
         Some((about, default)) => (about.to_owned(), default.trim_end_matches(']').to_owned()),
         None if takes_values => (about, defaults.collect::<Vec<_>>().join(" ")),
@@ -194,7 +203,8 @@ fn entry(arg: &Arg) -> Entry {
             .chain(aliases)
             .collect(),
         values: if takes_values { values(arg) } else { Vec::new() },
-        is_repeated: arg.is_positional() && arg.get_num_args().is_some_and(|range| range.max_values() > 1),
+        is_repeated: arg.is_positional()
+            && arg.get_num_args().is_some_and(|range| range.max_values() > 1),
         about,
         details,
         words: words.map(|word| (word.get_name().to_owned(), meaning(word.get_help()))).collect(),
@@ -206,7 +216,8 @@ fn entry(arg: &Arg) -> Entry {
 /// The values of an option. One name stands for any number of values.
 fn values(arg: &Arg) -> Vec<Value> {
     let range = arg.get_num_args().unwrap_or_default();
-    let n_needed = if arg.is_positional() && !arg.is_required_set() { 0 } else { range.min_values() };
+    let n_needed =
+        if arg.is_positional() && !arg.is_required_set() { 0 } else { range.min_values() };
     let names: Vec<String> = match arg.get_value_names() {
         Some(names) => names.iter().map(ToString::to_string).collect(),
         None => vec![arg.get_id().as_str().to_uppercase()],
@@ -218,7 +229,8 @@ fn values(arg: &Arg) -> Vec<Value> {
 /// The first paragraph, without line breaks and full stop, and the others.
 fn paragraphs(text: Option<&clap::builder::StyledStr>) -> (String, Vec<String>) {
     let text = text.map(ToString::to_string).unwrap_or_default();
-    let mut paragraphs = text.split("\n\n").map(|paragraph| paragraph.replace('\n', " ").trim().to_owned());
+    let mut paragraphs =
+        text.split("\n\n").map(|paragraph| paragraph.replace('\n', " ").trim().to_owned());
     let first = paragraphs.next().unwrap_or_default();
     (first.strip_suffix('.').unwrap_or(&first).to_owned(), paragraphs.collect())
 }

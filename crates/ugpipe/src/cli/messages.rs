@@ -69,8 +69,10 @@ impl Messages {
         self.is_verbose = common.vb;
         if let Some(path) = common.messages() {
             let created = File::create(path);
-            self.file =
-                Some(created.map_err(|error| Failure::Write { name: path.display().to_string(), error })?);
+            self.file = Some(
+                created
+                    .map_err(|error| Failure::Write { name: path.display().to_string(), error })?,
+            );
         }
         Ok(())
     }
@@ -144,7 +146,11 @@ impl Messages {
     }
 
     fn line(&self, heading: &str, style: Style, text: &str) -> String {
-        format!("{}: {style}{heading}:{style:#} {}", self.program, message(text.trim_end_matches('\n')))
+        format!(
+            "{}: {style}{heading}:{style:#} {}",
+            self.program,
+            message(text.trim_end_matches('\n'))
+        )
     }
 
     /// Prints a message with a single write, because the programs of a pipe share the terminal.
@@ -154,7 +160,8 @@ impl Messages {
     fn print(&self, text: &str) {
         let text = format!("{}\n", text.trim_end_matches('\n'));
         let plain = strip_str(&text).to_string();
-        let is_in_file = self.file.as_ref().is_some_and(|mut file| file.write_all(plain.as_bytes()).is_ok());
+        let is_in_file =
+            self.file.as_ref().is_some_and(|mut file| file.write_all(plain.as_bytes()).is_ok());
         if is_in_file {
             return;
         }

@@ -75,7 +75,8 @@ pub(crate) mod output {
             &mut self,
             _fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
         ) -> Result<(), Failure> {
-            let name = self.path().map_or_else(|| "-".to_owned(), |path| path.display().to_string());
+            let name =
+                self.path().map_or_else(|| "-".to_owned(), |path| path.display().to_string());
             super::unsupported().map_err(|error| Failure::Write { name, error })
         }
 
@@ -97,7 +98,9 @@ pub(crate) mod run {
     use crate::cli::failure::Failure;
 
     /// Fails: no program is started here.
-    pub fn main<A: ToolArgs>(_run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
+    pub fn main<A: ToolArgs>(
+        _run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>,
+    ) -> ExitCode {
         ExitCode::FAILURE
     }
 }

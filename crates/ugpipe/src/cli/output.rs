@@ -82,8 +82,10 @@ impl Output {
     }
 
     fn failure(&self, error: io::Error) -> Failure {
-        let name =
-            self.path.as_ref().map_or_else(|| "<stdout>".to_owned(), |path| path.display().to_string());
+        let name = self
+            .path
+            .as_ref()
+            .map_or_else(|| "<stdout>".to_owned(), |path| path.display().to_string());
         Failure::Write { name, error }
     }
 }
@@ -130,7 +132,10 @@ impl Sink {
         Ok(Self::Temporary { temporary, target })
     }
 
-    fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    fn write_with(
+        &mut self,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
         match self {
             Self::Stdout => {
                 // `io::Stdout` hides the error of a descriptor that is not open for writing; a
@@ -155,8 +160,9 @@ mod tests {
     #[test]
     fn devices_are_written_to_and_not_replaced() {
         assert!(matches!(Sink::open(Some(Path::new("/dev/null"))), Ok(Sink::Device(_))));
-        let failure =
-            Output::new(Some(Path::new("/dev/full"))).write_with(|out| out.write_all(b"scene")).unwrap_err();
+        let failure = Output::new(Some(Path::new("/dev/full")))
+            .write_with(|out| out.write_all(b"scene"))
+            .unwrap_err();
         assert_eq!(failure.to_string(), "cannot write `/dev/full`: No space left on device");
     }
 }

@@ -30,12 +30,16 @@ pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Re
 ///
 /// # Errors
 /// See [`parse_words`].
-pub fn parse_command<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<(A, String), Failure> {
+pub fn parse_command<A: ToolArgs>(
+    words: impl IntoIterator<Item = OsString>,
+) -> Result<(A, String), Failure> {
     let mut command = argv::prepare(A::command());
     match parse(&mut command, words) {
         Ok((args, matches)) => Ok((args, provenance::command_line(&command, &matches))),
         Err(Unparsed::Usage(message)) => Err(Failure::Usage(message)),
-        Err(Unparsed::Help(text)) => Err(Failure::Usage(usage::message(&command, &text, None, &[]))),
+        Err(Unparsed::Help(text)) => {
+            Err(Failure::Usage(usage::message(&command, &text, None, &[])))
+        }
     }
 }
 

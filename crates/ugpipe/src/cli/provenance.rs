@@ -58,8 +58,9 @@ fn spelling(arg: &Arg) -> String {
 /// It is a path only if that leads from the current folder downwards; otherwise it is the file name
 /// alone, so that outputs do not tell how folders are named.
 pub(crate) fn recorded_name(path: Option<&Path>) -> String {
-    let is_below =
-        |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    let is_below = |path: &Path| {
+        path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
+    };
     let name = match path {
         None => OsStr::new("-"),
         Some(path) if is_below(path) => path.as_os_str(),
@@ -198,7 +199,9 @@ mod tests {
         let words: Vec<OsString> = words.into_iter().map(OsString::from_vec).collect();
         let quoted: Vec<String> = words.iter().map(|word| shell_os_word(word)).collect();
         let script = format!("printf '%s\\0' {}", quoted.join(" "));
-        let Ok(output) = std::process::Command::new("bash").args(["-c", &script]).output() else { return };
+        let Ok(output) = std::process::Command::new("bash").args(["-c", &script]).output() else {
+            return;
+        };
         let read = output.stdout.strip_suffix(b"\0").unwrap().split(|&byte| byte == 0);
         assert!(read.eq(words.iter().map(|word| word.as_encoded_bytes())));
     }

@@ -83,7 +83,9 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     cleanup::survive_size_limits();
     if let Some(words) = completion::words_of_shell(env::args_os()) {
         let text = completion::completions(&manual::<A>(), &words);
-        return io::stdout().write_all(text.as_bytes()).map_or(BAD_INPUT.into(), |()| ExitCode::SUCCESS);
+        return io::stdout()
+            .write_all(text.as_bytes())
+            .map_or(BAD_INPUT.into(), |()| ExitCode::SUCCESS);
     }
     let mut command = argv::prepare(A::command());
     let mut parsed = parse::<A>(&mut command, env::args_os());
@@ -98,10 +100,13 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
         Err(Unparsed::Help(text)) => return print_help(&text),
     };
     let mut messages = Messages::new(command.get_name());
-    let opened = streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
-    let mut context = Context::new(args.common(), messages, provenance::command_line(&command, &matches));
-    let outcome =
-        opened.and_then(|()| start_threads(args.common().nt)).and_then(|()| run(&args, &mut context));
+    let opened =
+        streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
+    let mut context =
+        Context::new(args.common(), messages, provenance::command_line(&command, &matches));
+    let outcome = opened
+        .and_then(|()| start_threads(args.common().nt))
+        .and_then(|()| run(&args, &mut context));
     match context.end(outcome) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) if failure.is_closed_pipe() => die_of_sigpipe(),
@@ -140,8 +145,8 @@ fn n_threads_in_space() -> usize {
 ///
 /// The run itself stays on the main thread with its larger stack, for any value of `-nt`.
 fn start_threads(n_threads: Option<u32>) -> Result<(), Failure> {
-    let wanted =
-        n_threads.map_or_else(|| thread::available_parallelism().map_or(1, usize::from), |n| n as usize);
+    let wanted = n_threads
+        .map_or_else(|| thread::available_parallelism().map_or(1, usize::from), |n| n as usize);
     // rayon panics if a thread cannot be started, so the threads are started first.
     let mut waiting = Vec::new();
     for _ in 0..wanted.min(n_threads_in_space()) {
@@ -149,7 +154,8 @@ fn start_threads(n_threads: Option<u32>) -> Result<(), Failure> {
             Ok(thread) => waiting.push(thread),
             Err(error) if n_threads.is_some() => {
                 let why = reason(&error);
-                let message = format!("cannot start {wanted} threads: {why}; give a smaller number to -nt");
+                let message =
+                    format!("cannot start {wanted} threads: {why}; give a smaller number to -nt");
                 return Err(Failure::Failed(message));
             }
             Err(_) => break,

@@ -48,7 +48,8 @@ mod tests {
         fs::create_dir(path("ours-folder")).unwrap();
         remove(folder.path(), |name| name.starts_with("ours"));
         let names = || {
-            let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+            let names =
+                fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
             let mut names: Vec<String> = names.map(|name| name.into_string().unwrap()).collect();
             names.sort();
             names

@@ -28,7 +28,8 @@ struct Step {
 
 impl<'m> Steps<'m> {
     pub(crate) fn new(messages: &'m Messages) -> Self {
-        let shows_bar = !messages.is_quiet() && messages.host().is_none() && io::stderr().is_terminal();
+        let shows_bar =
+            !messages.is_quiet() && messages.host().is_none() && io::stderr().is_terminal();
         Self { messages, shows_bar, current: Mutex::new(None) }
     }
 

@@ -37,19 +37,26 @@ pub(crate) fn check(common: &CommonArgs, matches: &ArgMatches) -> Result<(), Fai
     let secondary = secondary_outputs(common, matches);
     let output = match common.output() {
         Some(path) => Stream::file("-fo", path),
-        None => Stream { name: "standard output".to_owned(), identity: Identity::of_stream(&io::stdout()) },
+        None => Stream {
+            name: "standard output".to_owned(),
+            identity: Identity::of_stream(&io::stdout()),
+        },
     };
     for (idx, one) in secondary.iter().enumerate() {
         for other in secondary[..idx].iter().chain([&output]) {
             if one.identity.is_some() && one.identity == other.identity {
-                let message = format!("two outputs cannot go to one file: {} and {}", other.name, one.name);
+                let message =
+                    format!("two outputs cannot go to one file: {} and {}", other.name, one.name);
                 return Err(Failure::Usage(message));
             }
         }
         if let Some(input) = inputs.iter().find(|input| input.identity == one.identity)
             && one.identity.is_some()
         {
-            return Err(Failure::Usage(format!("{} would overwrite the input, {}", one.name, input.name)));
+            return Err(Failure::Usage(format!(
+                "{} would overwrite the input, {}",
+                one.name, input.name
+            )));
         }
     }
     Ok(())
@@ -69,7 +76,10 @@ fn require_folder(path: &Path) -> Result<(), Failure> {
 fn inputs(common: &CommonArgs, matches: &ArgMatches) -> Vec<Stream> {
     let main = match common.input() {
         Some(path) => Stream::file("file", path),
-        None => Stream { name: "standard input".to_owned(), identity: Identity::of_stream(&io::stdin()) },
+        None => Stream {
+            name: "standard input".to_owned(),
+            identity: Identity::of_stream(&io::stdin()),
+        },
     };
     let others = named(matches, "files").map(|path| Stream::file("file", path));
     std::iter::once(main).chain(others).collect()

@@ -50,7 +50,9 @@ pub(crate) fn message(
         _ => 0,
     };
     match error.kind() {
-        ErrorKind::UnknownArgument if argument.starts_with('-') => unknown_option(command, &argument, words),
+        ErrorKind::UnknownArgument if argument.starts_with('-') => {
+            unknown_option(command, &argument, words)
+        }
         ErrorKind::UnknownArgument => {
             // As word processors write the hyphen of an option.
             let first = |word: &OsString| word.to_str()?.get(..3).and_then(look_alike);
@@ -66,7 +68,8 @@ pub(crate) fn message(
         ErrorKind::InvalidValue => {
             let valid = context(error, ContextKind::ValidValue).unwrap_or_default();
             let similar = context(error, ContextKind::SuggestedValue);
-            let similar = similar.map(|word| format!("; did you mean `{word}`?")).unwrap_or_default();
+            let similar =
+                similar.map(|word| format!("; did you mean `{word}`?")).unwrap_or_default();
             format!("`{option}` takes {valid}, not `{value}`{similar}")
         }
         ErrorKind::ValueValidation => {
@@ -172,7 +175,9 @@ fn unknown_option(command: &Command, argument: &str, words: &[OsString]) -> Stri
     }
     if let Some((ours, number)) = with_number(name).filter(|(ours, _)| has(ours)) {
         let ours = in_documented_form(&format!("--{ours}"));
-        return format!("there is no option `{shown}`; write a blank before the number: `{ours} {number}`");
+        return format!(
+            "there is no option `{shown}`; write a blank before the number: `{ours} {number}`"
+        );
     }
     match nearest(name, names()).or_else(|| containing(name, names())) {
         Some(near) => format!(
@@ -186,7 +191,8 @@ fn unknown_option(command: &Command, argument: &str, words: &[OsString]) -> Stri
 /// An option with the dashes that it was typed with: clap gets two.
 fn as_typed(argument: &str, words: &[OsString]) -> String {
     let options = words.iter().filter_map(|word| word.to_str()?.split('=').next());
-    let mut same = options.filter(|word| argument.strip_prefix('-') == Some(word) || argument == *word);
+    let mut same =
+        options.filter(|word| argument.strip_prefix('-') == Some(word) || argument == *word);
     same.next().map_or_else(|| in_documented_form(argument), str::to_owned)
 }
 
@@ -234,9 +240,12 @@ fn nearest<'n>(word: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n s
     const MAX_LENGTH: usize = 64;
     let word = word.to_ascii_lowercase();
     let most = if word.len() < 6 { 1 } else { 2 };
-    let near = names.filter(|name| name.len() <= MAX_LENGTH && name.len().abs_diff(word.len()) <= most);
+    let near =
+        names.filter(|name| name.len() <= MAX_LENGTH && name.len().abs_diff(word.len()) <= most);
     let near = near.map(|name| (strsim::osa_distance(&word, name), name));
-    near.filter(|&(distance, name)| distance <= most && distance < name.len()).min().map(|(_, name)| name)
+    near.filter(|&(distance, name)| distance <= most && distance < name.len())
+        .min()
+        .map(|(_, name)| name)
 }
 
 /// The only name that has `word` between its hyphens: `keep-in-view` for `keep`.
@@ -281,9 +290,12 @@ mod tests {
     #[test]
     fn names_with_a_word() {
         let names = ["keep-in-view", "no-flux", "no-shadows"];
-        for (word, expected) in
-            [("keep", Some("keep-in-view")), ("shadows", Some("no-shadows")), ("no", None), ("x", None)]
-        {
+        for (word, expected) in [
+            ("keep", Some("keep-in-view")),
+            ("shadows", Some("no-shadows")),
+            ("no", None),
+            ("x", None),
+        ] {
             assert_eq!(containing(word, names.into_iter()), expected, "{word}");
         }
     }

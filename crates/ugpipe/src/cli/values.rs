@@ -43,7 +43,8 @@ fn in_other_notation(word: &str) -> Option<(&'static str, f64)> {
     if let Some((over, under)) = word.split_once('/')
         && let (Some(over), Some(under)) = (parsed(over), parsed(under))
     {
-        return Some(("fractions are decimal", over / under)).filter(|(_, number)| number.is_finite());
+        return Some(("fractions are decimal", over / under))
+            .filter(|(_, number)| number.is_finite());
     }
     let (number, unit) = word.split_at(word.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1);
     let number = parsed(number)?;
@@ -68,7 +69,9 @@ pub fn number<T: 'static>(
 /// Value parser of options that take a whole number: `value_parser = ugpipe::whole(1..=16)`.
 ///
 /// Its message states the range, or only its lower end if the upper one is `u32::MAX`.
-pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+pub fn whole(
+    range: RangeInclusive<u32>,
+) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
     move |word| {
         let number = word.parse().ok().filter(|number| range.contains(number));
         number.ok_or_else(|| match range.clone().into_inner() {
@@ -98,7 +101,12 @@ struct OneOf<T> {
 impl<T: Clone + Send + Sync + 'static> TypedValueParser for OneOf<T> {
     type Value = T;
 
-    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<T, clap::Error> {
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<T, clap::Error> {
         let Self { what, all } = self.clone();
         let parse = move |word: &str| {
             let found = all.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
@@ -175,7 +183,9 @@ mod tests {
 
     #[test]
     fn numbers_in_other_notations_are_taught() {
-        let check = |word: &str, expected: &str| assert_eq!(finite(word), Err(expected.to_owned()), "{word}");
+        let check = |word: &str, expected: &str| {
+            assert_eq!(finite(word), Err(expected.to_owned()), "{word}")
+        };
         check("0,9", "the decimal point is a point: write `0.9`");
         check("-1,5e-3", "the decimal point is a point: write `-0.0015`");
         check("0.9,", "numbers are separated by blanks: write `0.9`");
@@ -190,7 +200,9 @@ mod tests {
         check("40°", "numbers are written without units: write `40`");
         check("0..5", remedies::CHANGING_NUMBERS);
         check("\u{2212}.9", "`\u{2212}` (U+2212) is a minus sign of Unicode: write it as ASCII");
-        for word in ["", "red", "nan", "1e999", "1/0", "1,5,7", "1e999km/s", ",", "/", "%", "ship.ug"] {
+        for word in
+            ["", "red", "nan", "1e999", "1/0", "1,5,7", "1e999km/s", ",", "/", "%", "ship.ug"]
+        {
             check(word, "not a finite number");
         }
     }

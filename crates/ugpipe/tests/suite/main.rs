@@ -71,7 +71,8 @@ fn assert_run(output: &Output, status: i32, stdout: &str, stderr: &str) {
 /// The names of all files in `folder`, sorted, to check that no temporary files are left.
 fn files(folder: &TempDir) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
-    let mut names = Vec::from_iter(entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()));
+    let mut names =
+        Vec::from_iter(entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()));
     names.sort();
     names
 }
@@ -106,8 +107,7 @@ fn input_is_a_file_or_standard_input() {
 
 #[test]
 fn an_empty_pipe_is_an_error() {
-    let empty =
-        "ugcat: error: nothing came through the pipe: the program upstream failed, or wrote nothing\n";
+    let empty = "ugcat: error: nothing came through the pipe: the program upstream failed, or wrote nothing\n";
     assert_run(&feed(command(&folder(), &[]), ""), 1, "", empty);
 }
 
@@ -120,12 +120,18 @@ fn file_names_need_not_be_utf_8() {
         let output = command(&folder, &[option]).arg(name).output().unwrap();
         assert_run(&output, 0, SHIP, "");
     }
-    let output = command(&folder, &["ship.ug", "-fo"]).arg(OsStr::from_bytes(b"\xfe.ug")).output().unwrap();
+    let output =
+        command(&folder, &["ship.ug", "-fo"]).arg(OsStr::from_bytes(b"\xfe.ug")).output().unwrap();
     assert_run(&output, 0, "", "");
     assert!(folder.path().join(OsStr::from_bytes(b"\xfe.ug")).exists());
 
     let output = command(&folder, &[]).arg(OsStr::from_bytes(b"no\xff.ug")).output().unwrap();
-    assert_run(&output, 1, "", "ugcat: error: cannot read `no\u{fffd}.ug`: No such file or directory\n");
+    assert_run(
+        &output,
+        1,
+        "",
+        "ugcat: error: cannot read `no\u{fffd}.ug`: No such file or directory\n",
+    );
 }
 
 #[test]
@@ -140,8 +146,18 @@ fn failures_have_a_status_and_a_message() {
     check(&folder, &["x.ug"], 1, "ugcat: error: cannot read `x.ug`: No such file or directory\n");
     check(&folder, &["."], 1, "ugcat: error: `.` is a directory; name a file in it\n");
     check(&folder, &["-fo", "."], 1, "ugcat: error: cannot write `.`: Is a directory\n");
-    check(&folder, &["-fo", "no/x.ug"], 1, "ugcat: error: cannot write `no/x.ug`: there is no folder `no`\n");
-    check(&folder, &["-fm", "a/b/x"], 1, "ugcat: error: cannot write `a/b/x`: there is no folder `a/b`\n");
+    check(
+        &folder,
+        &["-fo", "no/x.ug"],
+        1,
+        "ugcat: error: cannot write `no/x.ug`: there is no folder `no`\n",
+    );
+    check(
+        &folder,
+        &["-fm", "a/b/x"],
+        1,
+        "ugcat: error: cannot write `a/b/x`: there is no folder `a/b`\n",
+    );
     check(&folder, &["-fail", "work"], 1, "ugcat: error: invalid digit found in string\n");
     check(&folder, &["-fail", "report"], 1, "ugcat: error: no face\n --> x.ug:1:2\n");
     let usage = "ugcat: error: `-vel` is too fast; stay below 1\ntry `ugcat -h`\n";
@@ -214,7 +230,12 @@ fn messages_are_those_of_the_program_alone() {
 fn help_and_version() {
     let folder = folder();
     for option in ["-version", "--version"] {
-        assert_run(&run(&folder, &[option]), 0, &format!("ugcat {}\n", env!("CARGO_PKG_VERSION")), "");
+        assert_run(
+            &run(&folder, &[option]),
+            0,
+            &format!("ugcat {}\n", env!("CARGO_PKG_VERSION")),
+            "",
+        );
     }
     for option in ["-help", "--help", "-h"] {
         let output = run(&folder, &[option]);
@@ -245,7 +266,10 @@ fn a_number_after_an_option_without_values() {
     assert_run(&run(&folder, &["-head", "0", "ship.ug"]), 2, "", message);
     fs::write(folder.path().join("0"), SHIP).unwrap();
     let output = run(&folder, &["-say", "-qt", "0"]);
-    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stdout).as_ref()), (Some(0), SHIP));
+    assert_eq!(
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).as_ref()),
+        (Some(0), SHIP)
+    );
 }
 
 #[test]
@@ -309,7 +333,10 @@ fn output_files_of_failed_runs_do_not_appear() {
     assert_eq!(run(&folder, &["no.ug", "-fo", "new.ug"]).status.code(), Some(1));
     assert_eq!(files(&folder), ["ship.ug"]);
     fs::write(folder.path().join("old.ug"), "old").unwrap();
-    assert_eq!(run(&folder, &["ship.ug", "-fo", "old.ug", "-fail", "usage"]).status.code(), Some(2));
+    assert_eq!(
+        run(&folder, &["ship.ug", "-fo", "old.ug", "-fail", "usage"]).status.code(),
+        Some(2)
+    );
     assert_eq!(read(&folder, "old.ug"), "old");
     assert_eq!(files(&folder), ["old.ug", "ship.ug"]);
 }
@@ -329,7 +356,12 @@ fn a_full_disk_leaves_no_file() {
     let line = "trap '' XFSZ; ulimit -f 64; head -c 99999 /dev/zero | \"$ugcat\" -fo ";
     for name in ["new.ug", "old.ug"] {
         let output = shell(&folder, &format!("{line}{name}"));
-        assert_run(&output, 1, "", &format!("ugcat: error: cannot write `{name}`: File too large\n"));
+        assert_run(
+            &output,
+            1,
+            "",
+            &format!("ugcat: error: cannot write `{name}`: File too large\n"),
+        );
     }
     assert_eq!(read(&folder, "old.ug"), "old");
     assert_eq!(files(&folder), ["old.ug", "ship.ug"]);
@@ -347,11 +379,26 @@ fn no_output_destroys_an_input_or_another_output() {
         assert_eq!(files(&folder), ["link.ug", "ship.ug"]);
     }
     check("$ugcat ship.ug -fm ship.ug", "-fm `ship.ug` would overwrite the input, file `ship.ug`");
-    check("$ugcat ship.ug -fm ./link.ug", "-fm `./link.ug` would overwrite the input, file `ship.ug`");
-    check("$ugcat < ship.ug -fm ship.ug", "-fm `ship.ug` would overwrite the input, standard input");
-    check("$ugcat -fi link.ug -at ship.ug", "-at `ship.ug` would overwrite the input, file `link.ug`");
-    check("$ugcat ship.ug -fm f -fo ./f", "two outputs cannot go to one file: -fo `./f` and -fm `f`");
-    check("$ugcat ship.ug -at f -fm ./f", "two outputs cannot go to one file: -fm `./f` and -at `f`");
+    check(
+        "$ugcat ship.ug -fm ./link.ug",
+        "-fm `./link.ug` would overwrite the input, file `ship.ug`",
+    );
+    check(
+        "$ugcat < ship.ug -fm ship.ug",
+        "-fm `ship.ug` would overwrite the input, standard input",
+    );
+    check(
+        "$ugcat -fi link.ug -at ship.ug",
+        "-at `ship.ug` would overwrite the input, file `link.ug`",
+    );
+    check(
+        "$ugcat ship.ug -fm f -fo ./f",
+        "two outputs cannot go to one file: -fo `./f` and -fm `f`",
+    );
+    check(
+        "$ugcat ship.ug -at f -fm ./f",
+        "two outputs cannot go to one file: -fm `./f` and -at `f`",
+    );
     check(
         "$ugcat ship.ug -at ship.ug -fo link.ug",
         "two outputs cannot go to one file: -fo `link.ug` and -at `ship.ug`",
@@ -435,7 +482,8 @@ fn the_next_run_deletes_what_was_left() {
     };
     let linger = |seconds: &str| {
         let n_before = temporary().len();
-        let child = command(&folder, &["ship.ug", "-fo", "out.ug", "-linger", seconds]).spawn().unwrap();
+        let child =
+            command(&folder, &["ship.ug", "-fo", "out.ug", "-linger", seconds]).spawn().unwrap();
         let has_begun = (0..2000).any(|_| {
             thread::sleep(Duration::from_millis(5));
             temporary().len() > n_before
@@ -501,7 +549,12 @@ fn a_link_stays_and_its_target_is_written() {
     }
     symlink("loop", folder.path().join("loop")).unwrap();
     let output = run(&folder, &["ship.ug", "-fo", "loop"]);
-    assert_run(&output, 1, "", "ugcat: error: cannot write `loop`: Too many levels of symbolic links\n");
+    assert_run(
+        &output,
+        1,
+        "",
+        "ugcat: error: cannot write `loop`: Too many levels of symbolic links\n",
+    );
 }
 
 #[test]
@@ -561,7 +614,8 @@ fn on_terminal(mut command: Command, typed: &[u8]) -> (Option<i32>, String) {
     grantpt(&master).unwrap();
     unlockpt(&master).unwrap();
     let name = ptsname(&master, Vec::new()).unwrap();
-    let open = || File::options().read(true).write(true).open(OsStr::from_bytes(name.as_bytes())).unwrap();
+    let open =
+        || File::options().read(true).write(true).open(OsStr::from_bytes(name.as_bytes())).unwrap();
     let mut child = command.stdin(open()).stdout(open()).stderr(open()).spawn().unwrap();
     // The command owns copies of the terminal; as long as they are open, reading does not end.
     drop(command);
@@ -628,7 +682,10 @@ fn a_terminal_shows_colors_unless_unwanted() {
     let mut without = command_in_color(&folder, &args);
     without.env("NO_COLOR", "1");
     let (_, screen) = on_terminal(without, b"");
-    assert!(screen.contains("ugcat: warning: nearly all\nugcat: warning: this face\n"), "{screen:?}");
+    assert!(
+        screen.contains("ugcat: warning: nearly all\nugcat: warning: this face\n"),
+        "{screen:?}"
+    );
     assert!(!screen.contains('\x1b'), "{screen:?}");
 }
 
@@ -654,7 +711,9 @@ fn steps_print_their_times_when_verbose() {
     let folder = folder();
     let told = run(&folder, &["-work", "0", "-vb", "ship.ug"]);
     let lines = String::from_utf8(told.stderr).unwrap();
-    let steps: Vec<&str> =
-        lines.lines().filter_map(|line| line.split(" s: ").nth(1)?.split(" took ").next()).collect();
+    let steps: Vec<&str> = lines
+        .lines()
+        .filter_map(|line| line.split(" s: ").nth(1)?.split(" took ").next())
+        .collect();
     assert_eq!(steps, ["thinking", "working", "writing"], "{lines}");
 }

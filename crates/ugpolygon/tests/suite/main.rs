@@ -19,7 +19,12 @@ fn tilt() -> f64 {
 
 #[test]
 fn triangles_cover_the_polygon() {
-    fn check(what: &str, outline: &[(f64, f64)], holes: &[&[(f64, f64)]], expected: Option<(usize, f64)>) {
+    fn check(
+        what: &str,
+        outline: &[(f64, f64)],
+        holes: &[&[(f64, f64)]],
+        expected: Option<(usize, f64)>,
+    ) {
         for mirrored in [false, true] {
             let turn = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
                 points.iter().map(|&(x, y)| (if mirrored { -x } else { x }, y)).collect()
@@ -34,7 +39,10 @@ fn triangles_cover_the_polygon() {
             let sum: f64 = found
                 .unwrap()
                 .iter()
-                .map(|t| newell_normal(t.iter().map(|&c| corners[c as usize])).dot(normal.normalize()) / 2.0)
+                .map(|t| {
+                    newell_normal(t.iter().map(|&c| corners[c as usize])).dot(normal.normalize())
+                        / 2.0
+                })
                 .inspect(|&part| assert!(part > -1e-12, "{what}: turned"))
                 .sum();
             assert!((sum - area * tilt()).abs() < 1e-12 * area, "{what}: {sum}");
@@ -117,7 +125,8 @@ fn repeated_corners_are_refused_soon() {
 #[test]
 fn nesting_beyond_the_limit_is_refused() {
     let square = |size: f64| ring(&[(-size, -size), (size, -size), (size, size), (-size, size)]);
-    let nested = |n: u32| -> Vec<Vec<DVec3>> { (1..=n).rev().map(|size| square(f64::from(size))).collect() };
+    let nested =
+        |n: u32| -> Vec<Vec<DVec3>> { (1..=n).rev().map(|size| square(f64::from(size))).collect() };
     assert_eq!(triangulate(&nested(101)).unwrap().len(), 50 * 8 + 2);
     assert_eq!(triangulate(&nested(20_000)), None);
 }
@@ -159,8 +168,21 @@ fn triangles_do_not_depend_on_axes_units_or_rounding() {
         vec![flat(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)])],
         vec![flat(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 2.0), (0.0, 2.0)])],
         vec![square(0.0, 0.0, 3.0), square(1.0, 1.0, 1.0)],
-        vec![square(0.0, 0.0, 5.0), square(1.0, 1.0, 1.0), square(3.0, 1.0, 1.0), square(3.0, 3.0, 1.0)],
-        vec![flat(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (3.0, 3.0), (1.0, 1.0), (0.0, 3.0)])],
+        vec![
+            square(0.0, 0.0, 5.0),
+            square(1.0, 1.0, 1.0),
+            square(3.0, 1.0, 1.0),
+            square(3.0, 3.0, 1.0),
+        ],
+        vec![flat(&[
+            (0.0, 0.0),
+            (1.0, 0.0),
+            (2.0, 0.0),
+            (3.0, 0.0),
+            (3.0, 3.0),
+            (1.0, 1.0),
+            (0.0, 3.0),
+        ])],
     ];
     let mut random = Random(1);
     for (row, rings) in shapes.iter().enumerate() {
@@ -186,7 +208,8 @@ fn triangles_do_not_depend_on_axes_units_or_rounding() {
 fn a_mirrored_convex_face_has_mirrored_triangles() {
     let ring = ring(&[(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (2.0, 3.0), (0.0, 2.0)]);
     let n = ring.len();
-    let mirrored: Vec<DVec3> = (0..n).map(|idx| ring[(n - idx) % n] * DVec3::new(-1.0, 1.0, 1.0)).collect();
+    let mirrored: Vec<DVec3> =
+        (0..n).map(|idx| ring[(n - idx) % n] * DVec3::new(-1.0, 1.0, 1.0)).collect();
     let sorted = |triangles: Vec<Triangle>, number: &dyn Fn(u32) -> u32| {
         let mut all: Vec<Triangle> = triangles.into_iter().map(|t| t.map(number)).collect();
         all.iter_mut().for_each(|t| t.sort_unstable());
@@ -212,5 +235,8 @@ fn convexity() {
         let corner = |at: i32| libm::sincos(f64::from(at) * step);
         is_convex(&ring(&(0..5).map(|at| (corner(at).1, corner(at).0)).collect::<Vec<_>>()))
     };
-    assert!(around(std::f64::consts::TAU / 5.0) && !around(2.0 * std::f64::consts::TAU / 5.0), "a star");
+    assert!(
+        around(std::f64::consts::TAU / 5.0) && !around(2.0 * std::f64::consts::TAU / 5.0),
+        "a star"
+    );
 }

@@ -19,7 +19,9 @@ impl Words for Error {
                 "{}: give -sp to shift all colours as spectra, or --no-doppler --no-flux to see the shape"
             }
             Self::FigureBackground => "{}: give -bg 1, for paper, in place of -tb",
-            Self::FigureFaces | Self::FigureOverlaps => "{}: leave out -vec, and give a larger -sz for print",
+            Self::FigureFaces | Self::FigureOverlaps => {
+                "{}: leave out -vec, and give a larger -sz for print"
+            }
         };
         words.replacen("{}", &self.to_string(), 1)
     }

@@ -39,16 +39,30 @@ impl<'a, const N: usize> Faces<'a, N> {
         pack: Pack<N>,
     ) -> Self {
         let surface = &painter.appearance.surface;
-        let faces =
-            RestFaces { scene: painter.scene, rest: surface.all_rest(), frames: surface.frames(), planes };
+        let faces = RestFaces {
+            scene: painter.scene,
+            rest: surface.all_rest(),
+            frames: surface.frames(),
+            planes,
+        };
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
         let tile = [size[0], painter.grid.bands().sample_rows()];
-        let outlines =
-            Outlines::new(faces, painter.view, Tiles { size, start: [0; 2], tile, margin: 0 }, |face| {
-                !face.shape.is_round() && surface.frames().world_line(face.body).is_none() && is_drawn(face)
-            });
+        let outlines = Outlines::new(
+            faces,
+            painter.view,
+            Tiles { size, start: [0; 2], tile, margin: 0 },
+            |face| {
+                !face.shape.is_round()
+                    && surface.frames().world_line(face.body).is_none()
+                    && is_drawn(face)
+            },
+        );
         let look = |shape: &OutlinedFace| {
-            Look::new(&painter, Some(outlines.frame(shape)), &painter.scene.faces[shape.item as usize])
+            Look::new(
+                &painter,
+                Some(outlines.frame(shape)),
+                &painter.scene.faces[shape.item as usize],
+            )
         };
         let looks: Vec<Look> = outlines.shapes().par_iter().map(look).collect();
         let drawn = painter.scene.faces.par_iter().filter(|face| is_drawn(face));
@@ -63,7 +77,8 @@ impl<'a, const N: usize> Faces<'a, N> {
     pub fn hides(&self, place: [f64; 2], key: f64) -> bool {
         let nearest = |moving: &MovingFaces<'_>| moving.nearest(&moving.ray(place));
         let is_before = |found: Intersection| 1.0 / found.s > key;
-        self.outlines.hides(place, key) || self.moving.as_ref().and_then(nearest).is_some_and(is_before)
+        self.outlines.hides(place, key)
+            || self.moving.as_ref().and_then(nearest).is_some_and(is_before)
     }
 
     /// Draws the opaque faces of a band into one of its tiles: the nearest at each sample, so no
@@ -112,7 +127,8 @@ impl<'a, const N: usize> Faces<'a, N> {
         target.draw_each(row, columns, shape.item, |column, occluder_key| {
             let (ray, key) = ray(column);
             let key = key as f32;
-            (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(number, shape, frame, (&ray, 1))))
+            (key > occluder_key)
+                .then(|| (key, self.values::<SPECTRAL>(number, shape, frame, (&ray, 1))))
         });
     }
 
@@ -129,10 +145,16 @@ impl<'a, const N: usize> Faces<'a, N> {
             let ray = moving.ray(place);
             for found in hits(moving, &ray) {
                 let key = (1.0 / found.s) as f32;
-                target.draw_each(row, column..column + 1, found.triangle.face, |_, occluder_key| {
-                    (key > occluder_key)
-                        .then(|| (key, self.packed(&moving.shaded::<SPECTRAL>(&ray, &found, place))))
-                });
+                target.draw_each(
+                    row,
+                    column..column + 1,
+                    found.triangle.face,
+                    |_, occluder_key| {
+                        (key > occluder_key).then(|| {
+                            (key, self.packed(&moving.shaded::<SPECTRAL>(&ray, &found, place)))
+                        })
+                    },
+                );
             }
         }
     }
@@ -146,7 +168,8 @@ impl<'a, const N: usize> Faces<'a, N> {
         Range { start, end }: Range<u32>,
     ) -> impl FnMut(u32) -> [f32; N] {
         let shape = &self.outlines.shapes()[number as usize];
-        let (frame, n_together) = (self.outlines.frame(shape), self.looks[number as usize].n_together);
+        let (frame, n_together) =
+            (self.outlines.frame(shape), self.looks[number as usize].n_together);
         let rays = frame.row_of_samples(row);
         let (mut upto, mut values) = (0, [0.0; N]);
         move |column| {
@@ -176,7 +199,12 @@ impl<'a, const N: usize> Faces<'a, N> {
         (ray, n_samples): (&RestRay, u32),
     ) -> [f32; N] {
         let look = &self.looks[number as usize];
-        self.packed(&look.at::<SPECTRAL>(&self.painter, frame, (ray, n_samples), shape.key(ray.rest)))
+        self.packed(&look.at::<SPECTRAL>(
+            &self.painter,
+            frame,
+            (ray, n_samples),
+            shape.key(ray.rest),
+        ))
     }
 }
 
@@ -192,16 +220,21 @@ impl Faces<'_, TRANSPARENT_VALUES> {
     }
 
     fn draw_all<const SPECTRAL: bool>(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
-        self.outlines.for_each_run([0, band as u32], samples(writer.area()), |number, row, columns, ray| {
-            self.draw_run::<SPECTRAL>(writer, (number, row, columns), ray);
-        });
+        self.outlines.for_each_run(
+            [0, band as u32],
+            samples(writer.area()),
+            |number, row, columns, ray| {
+                self.draw_run::<SPECTRAL>(writer, (number, row, columns), ray);
+            },
+        );
         self.draw_moving::<SPECTRAL, _>(writer, |moving, ray| moving.all(ray));
     }
 }
 
 /// True if a corner is seen before the near clipping plane.
 fn is_in_front(painter: &Painter<'_>, face: &Face) -> bool {
-    let depth = |corner: &VertexId| painter.place(painter.scene.vertices[corner.index()].position).z;
+    let depth =
+        |corner: &VertexId| painter.place(painter.scene.vertices[corner.index()].position).z;
     painter.scene.face_corners(face).iter().any(|corner| depth(corner) >= painter.view.slab.near)
 }
 

@@ -1,7 +1,9 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{ColorForm, FaceColors, Illumination, Lighting, Mixing, SpectralRows, SurfaceColor, Swatch};
+use uglight::{
+    ColorForm, FaceColors, Illumination, Lighting, Mixing, SpectralRows, SurfaceColor, Swatch,
+};
 use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{ColorId, Face, VertexId};
 
@@ -64,9 +66,13 @@ impl Triangle {
         let sides = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from));
         let colors @ [a, b, c] = corners.map(|corner| corner.0);
         let number = |of: fn(&Swatch) -> f64| [of(&a), of(&b) - of(&a), of(&c) - of(&a)];
-        let hues =
-            [number(|color| color.tint), number(|color| color.saturation), number(|color| color.value)];
-        let are_hues = colors.iter().all(|color| color.form == ColorForm::Hue && color.translucency == 0.0);
+        let hues = [
+            number(|color| color.tint),
+            number(|color| color.saturation),
+            number(|color| color.value),
+        ];
+        let are_hues =
+            colors.iter().all(|color| color.form == ColorForm::Hue && color.translucency == 0.0);
         let (rows, normals) = (corners.map(|corner| corner.1), corners.map(|corner| corner.2));
         Self { corners: ids, colors, rows, normals, hues: are_hues.then_some(hues), sides }
     }
@@ -124,8 +130,9 @@ impl Look {
         let corners: Vec<(Swatch, u32, DVec3)> = vertices.iter().map(corner).collect();
         let first = corners[0];
         let is_spectral = appearance.is_spectral();
-        let has_colors =
-            corners.iter().any(|corner| corner.0 != first.0 || (is_spectral && corner.1 != first.1));
+        let has_colors = corners
+            .iter()
+            .any(|corner| corner.0 != first.0 || (is_spectral && corner.1 != first.1));
         let has_normals = corners.iter().any(|corner| corner.2 != first.2);
         let has_level = painter.scene.light_level(face).is_some();
         let is_hue = !is_spectral && colors.mixing == Mixing::Hue;
@@ -134,7 +141,8 @@ impl Look {
         // A body on a world line turns, and a round face has all normals.
         let has_directions = (has_normals || frame.is_none()) && lighting.needs_geometry();
         let is_even = has_level || !(lighting.needs_places() || has_directions);
-        let level = (is_even && !is_lit_by_color).then(|| painter.level(face, vertices[0], normal, is_light));
+        let level = (is_even && !is_lit_by_color)
+            .then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
         let triangles = match frame {
             Some(frame) if has_colors || has_normals || is_picture => {
@@ -244,7 +252,8 @@ impl Look {
             Swatch { form: ColorForm::Light(appearance.seen_light(rows(), stretch)), ..rest }
         } else {
             let has_own = mixed.is_some() && self.has_tints && stretch != 1.0;
-            let rest_nm = if has_own { appearance.wavelength_nm(rest.tint) } else { self.wavelength_nm };
+            let rest_nm =
+                if has_own { appearance.wavelength_nm(rest.tint) } else { self.wavelength_nm };
             appearance.seen(rest, rest_nm, stretch)
         };
         let color = painter.lit_as_written(color);
@@ -306,7 +315,11 @@ pub fn with_emitted(
 }
 
 /// The changes of the weights of corners from a ray in the middle of samples to the next ones.
-fn steps(frame: &PictureRays, (ray, n_samples): (DVec3, u32), triangle: &Triangle) -> [[f64; 2]; 2] {
+fn steps(
+    frame: &PictureRays,
+    (ray, n_samples): (DVec3, u32),
+    triangle: &Triangle,
+) -> [[f64; 2]; 2] {
     let [_, second, third] = triangle.weights(ray);
     frame.neighbours(ray, f64::from(n_samples)).map(|ray| {
         let [_, b, c] = triangle.weights(ray);

@@ -25,7 +25,11 @@ pub struct MovingFaces<'a> {
 
 impl<'a> MovingFaces<'a> {
     /// Those for which `is_drawn` returns true; `None` if there are none.
-    pub fn new(painter: Painter<'a>, planes: &[u32], is_drawn: impl Fn(&Face) -> bool) -> Option<Self> {
+    pub fn new(
+        painter: Painter<'a>,
+        planes: &[u32],
+        is_drawn: impl Fn(&Face) -> bool,
+    ) -> Option<Self> {
         let (scene, surface) = (painter.scene, &painter.appearance.surface);
         let is_found_by_rays =
             |face: &Face| face.shape.is_round() || surface.frames().world_line(face.body).is_some();
@@ -50,7 +54,8 @@ impl<'a> MovingFaces<'a> {
     pub fn n_in_picture(&self) -> usize {
         let Painter { scene, grid, .. } = self.painter;
         let is_in_picture = |face: &u32| {
-            let corners = scene.contours.corners(scene.faces[*face as usize].contours.clone()).iter();
+            let corners =
+                scene.contours.corners(scene.faces[*face as usize].contours.clone()).iter();
             let place = |id: &VertexId| self.painter.place(scene.vertices[id.index()].position);
             let points = corners.map(|id| self.painter.point(place(id)));
             Bounds::new(points.map(|point| [point.x, point.y])).is_in_picture(grid)

@@ -8,8 +8,8 @@ use uglight::Swatch;
 use ugparse::{Diagnostics, Source};
 use ugphysics::{doppler_at, srgb_decode, srgb_encode};
 use ugpicture::explain::{
-    ExplainedEvent, ExplainedItem, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor,
-    SampleContent,
+    ExplainedEvent, ExplainedItem, ExplainedSurface, Explainer, Explanation, PixelSteps,
+    SampleColor, SampleContent,
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
@@ -164,7 +164,8 @@ impl Teller<'_> {
     fn shown(&self, sample: &ProbedSample) -> RasterSample {
         let painter = self.setup.painter();
         let (seen, values, light) = self.subject(sample);
-        let emissions = Emissions::new(painter.scene, painter.view, painter.appearance.surface.frames());
+        let emissions =
+            Emissions::new(painter.scene, painter.view, painter.appearance.surface.frames());
         let emission = emissions.at(sample.place, seen);
         let (place, velocity) = (emission.place, emission.velocity);
         let geometry = ShownEffects::of(self.setup.scene());
@@ -201,13 +202,15 @@ impl Teller<'_> {
 
     /// The surface to explain: the nearest that transmits less than half of the light, as for
     /// channels, else the nearest. With its interpolated values, if they are known, and its light.
-    fn subject<'s>(&self, sample: &'s ProbedSample) -> (SurfaceSample, Option<&'s [f32]>, [f32; 3]) {
+    fn subject<'s>(
+        &self,
+        sample: &'s ProbedSample,
+    ) -> (SurfaceSample, Option<&'s [f32]>, [f32; 3]) {
         let layer = |layer: &Fragment| (of_fragment(&self.setup.view, layer), None, layer.light);
         let mut layers = sample.fragments.iter().rev();
-        let surface = sample
-            .opaque
-            .as_ref()
-            .map(|surface| (of_surface(surface.hit), Some(&surface.values[..]), surface.shaded.light));
+        let surface = sample.opaque.as_ref().map(|surface| {
+            (of_surface(surface.hit), Some(&surface.values[..]), surface.shaded.light)
+        });
         layers
             .clone()
             .find(|layer| layer.transmittance < 0.5)
@@ -247,7 +250,12 @@ impl Teller<'_> {
         let is_shifted = self.setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler);
         let seen_nm = palette.wavelength_nm(&swatch);
         let rest_nm = if is_shifted { seen_nm * doppler } else { seen_nm };
-        SampleColor::of_hue(palette.hsv(&swatch), palette.interpolation, [rest_nm, seen_nm], light_level)
+        SampleColor::of_hue(
+            palette.hsv(&swatch),
+            palette.interpolation,
+            [rest_nm, seen_nm],
+            light_level,
+        )
     }
 
     /// False for faces that shine by themselves: with a light level of their own, and in spectra as
@@ -255,8 +263,10 @@ impl Teller<'_> {
     fn is_lit(&self, item: u32) -> bool {
         let scene = self.setup.scene();
         let Some(face) = scene.faces.get(item as usize) else { return true };
-        let is_spectral =
-            scene.stage.seen_colors().is_some_and(|seen| matches!(seen.scale, ColorScale::Spectra { .. }));
+        let is_spectral = scene
+            .stage
+            .seen_colors()
+            .is_some_and(|seen| matches!(seen.scale, ColorScale::Spectra { .. }));
         let emits = face.color.is_some_and(|color| scene.colors[color.index()].value.emits());
         scene.light_level(face).is_none() && !(is_spectral && emits)
     }
@@ -278,7 +288,9 @@ impl Teller<'_> {
             };
             return vertices(&face.contours).into_iter().map(corner).collect();
         }
-        let Some(wire) = scene.wires.get(item as usize - scene.faces.len()) else { return Vec::new() };
+        let Some(wire) = scene.wires.get(item as usize - scene.faces.len()) else {
+            return Vec::new();
+        };
         let swatch = painter.wire_swatch(wire, true);
         let end = |vertex| self.corner(vertex, &swatch(vertex), DVec3::ONE, Vec::new());
         vertices(&wire.contours).into_iter().map(end).collect()

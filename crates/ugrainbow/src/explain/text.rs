@@ -24,7 +24,10 @@ impl WriteSample for RasterSample {
         for (idx, layer) in self.layers.iter().enumerate() {
             let (pass, light) = (number(layer.translucency), numbers(&layer.linear));
             let title = if idx == 0 { "layers" } else { "behind it" };
-            out.row(title, format!("{}: translucency {pass}, light {light}", described(&layer.item)));
+            out.row(
+                title,
+                format!("{}: translucency {pass}, light {light}", described(&layer.item)),
+            );
         }
     }
 }
@@ -37,10 +40,14 @@ fn corner_text(corner: &ExplainedCorner) -> String {
             format!("hue {hue}, saturation {saturation}, value {value}")
         }
     };
-    let mut text = format!("`{}` {color}; light level {}", corner.vertex, level(&corner.light_level));
+    let mut text =
+        format!("`{}` {color}; light level {}", corner.vertex, level(&corner.light_level));
     if corner.lights.len() > 1 {
-        let parts: Vec<String> =
-            corner.lights.iter().map(|part| format!("{} {}", level(&part.level), part.light)).collect();
+        let parts: Vec<String> = corner
+            .lights
+            .iter()
+            .map(|part| format!("{} {}", level(&part.level), part.light))
+            .collect();
         text += &format!(" = {}", parts.join(" + "));
     }
     text

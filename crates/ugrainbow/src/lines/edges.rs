@@ -27,7 +27,8 @@ pub struct Edge {
 pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
     let places = places(painter.appearance.surface.all_rest());
     let drawn = |edges: &[&FaceEdge]| {
-        let outward = if let &[one, other] = edges { outward(painter, [one, other], kind)? } else { 0.0 };
+        let outward =
+            if let &[one, other] = edges { outward(painter, [one, other], kind)? } else { 0.0 };
         let &FaceEdge { ends, face, places, .. } = edges[0];
         Some(Edge { ends, face, places, outward })
     };
@@ -84,14 +85,19 @@ fn is_turned_away(painter: &Painter<'_>, face: &Face) -> bool {
         return painter.is_seen_from_behind(face);
     }
     let corner = painter.scene.face_contours(face).next().and_then(|outline| outline.first());
-    corner.zip(normal(painter, face)).is_some_and(|(&corner, normal)| normal.dot(surface.rest(corner)) > 0.0)
+    corner
+        .zip(normal(painter, face))
+        .is_some_and(|(&corner, normal)| normal.dot(surface.rest(corner)) > 0.0)
 }
 
 /// Edges in the order in which they follow each other, each with whether it continues the one
 /// before it: where two meet, and no third.
 pub fn chained(edges: Vec<Edge>) -> Vec<(Edge, bool)> {
-    let mut at: Vec<(usize, usize)> =
-        edges.iter().enumerate().flat_map(|(row, edge)| edge.places.map(|place| (place, row))).collect();
+    let mut at: Vec<(usize, usize)> = edges
+        .iter()
+        .enumerate()
+        .flat_map(|(row, edge)| edge.places.map(|place| (place, row)))
+        .collect();
     at.par_sort_unstable();
     let next = |place: usize, row: usize| {
         let first = at.partition_point(|(other, _)| *other < place);

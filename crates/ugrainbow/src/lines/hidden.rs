@@ -16,8 +16,10 @@ pub type VisibleParts<'a> = dyn Fn([DepthPoint; 2], [f64; 2]) -> Vec<[f64; 2]> +
 impl<'a> Visibility<'a> {
     /// `size`: of the picture, in samples; `margin`: half the width of lines.
     pub fn new(visible: &'a VisibleParts<'a>, size: [u32; 2], margin: f64) -> Self {
-        let [low, right, bottom] = [-margin, f64::from(size[0]) + margin, f64::from(size[1]) + margin];
-        let corners = vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]];
+        let [low, right, bottom] =
+            [-margin, f64::from(size[0]) + margin, f64::from(size[1]) + margin];
+        let corners =
+            vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]];
         Self { visible, picture: Convex::new(corners) }
     }
 
@@ -28,11 +30,20 @@ impl<'a> Visibility<'a> {
 
     /// The parts of the segment from `a` to `b` that are in the picture and hidden: between those
     /// that are `visible`.
-    pub fn hidden_parts(&self, a: DepthPoint, b: DepthPoint, visible: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub fn hidden_parts(
+        &self,
+        a: DepthPoint,
+        b: DepthPoint,
+        visible: &[[f64; 2]],
+    ) -> Vec<[f64; 2]> {
         let Some([start, end]) = self.within(a, b) else { return Vec::new() };
         let starts = [start].into_iter().chain(visible.iter().map(|part| part[1]));
         let ends = visible.iter().map(|part| part[0]).chain([end]);
-        starts.zip(ends).filter(|(start, end)| start < end).map(|(start, end)| [start, end]).collect()
+        starts
+            .zip(ends)
+            .filter(|(start, end)| start < end)
+            .map(|(start, end)| [start, end])
+            .collect()
     }
 
     fn within(&self, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
@@ -64,12 +75,15 @@ impl Occluders {
         for contours in outlines {
             let places = || contours.iter().flatten();
             let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
-            let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
+            let high =
+                [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
             if !lines.has_any_in([low, high]) {
                 continue;
             }
-            let outline = contours.into_iter().map(|contour| clipped_to_picture(contour, size, margin));
-            let outline: Vec<Vec<DepthPoint>> = outline.filter(|contour| contour.len() > 2).collect();
+            let outline =
+                contours.into_iter().map(|contour| clipped_to_picture(contour, size, margin));
+            let outline: Vec<Vec<DepthPoint>> =
+                outline.filter(|contour| contour.len() > 2).collect();
             all.extend(convex_parts(&outline));
         }
         let index = BoxIndex::new(all.iter().map(|part| [part.low, part.high]), size);
@@ -82,7 +96,8 @@ impl Occluders {
         let low = [0, 1].map(|axis| from[axis].min(to[axis]));
         let high = [0, 1].map(|axis| from[axis].max(to[axis]));
         let parts = self.index.in_box([low, high]).into_iter().map(|idx| &self.parts[idx]);
-        let mut hidden: Vec<[f64; 2]> = parts.filter_map(|part| occluded_part(part, a, b)).collect();
+        let mut hidden: Vec<[f64; 2]> =
+            parts.filter_map(|part| occluded_part(part, a, b)).collect();
         hidden.sort_by(|one, other| one[0].total_cmp(&other[0]));
         let (mut shown, mut reached) = (Vec::new(), start);
         for [first, last] in hidden {

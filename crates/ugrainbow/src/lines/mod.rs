@@ -112,7 +112,13 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, is_exact: bool
     lines
 }
 
-fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, keeps_light: bool, lines: &mut Vec<Line>) {
+fn push_wire(
+    painter: &Painter<'_>,
+    item: u32,
+    wire: &Wire,
+    keeps_light: bool,
+    lines: &mut Vec<Line>,
+) {
     let end = painter.wire_swatch(wire, keeps_light);
     for contour in painter.scene.wire_contours(wire) {
         for (row, ends) in contour.windows(2).enumerate() {
@@ -144,10 +150,12 @@ fn edge_line(
         None => {
             let is_moving = !keeps_light(face.body);
             let colors = painter.appearance.face_colors_in_motion(painter.scene, face, is_moving);
-            edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.appearance.swatch(end, &colors) })
+            edge.ends
+                .map(|end| Swatch { translucency: 0.0, ..painter.appearance.swatch(end, &colors) })
         }
     };
-    let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));
+    let rows =
+        wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));
     Line {
         item: edge.face,
         body: face.body,
@@ -161,7 +169,10 @@ fn edge_line(
 
 /// A colour that is neither shifted nor attenuated.
 fn plain(color: Hsv) -> Swatch {
-    Swatch { form: ColorForm::Light(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
+    Swatch {
+        form: ColorForm::Light(DVec3::from_array(color.to_rgb().map(srgb_decode))),
+        ..Swatch::WHITE
+    }
 }
 
 /// Straight pieces of lines in the picture, hidden or not, and how many were clipped.
@@ -204,10 +215,13 @@ fn piece(
     continues: bool,
 ) -> Option<Stroke> {
     let view = painter.view;
-    let ends = clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
-    let mut numbers = ends.iter().flat_map(|end| [end.x, end.y, end.key].into_iter().chain(end.values));
+    let ends =
+        clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
+    let mut numbers =
+        ends.iter().flat_map(|end| [end.x, end.y, end.key].into_iter().chain(end.values));
     let &Line { item, outward, .. } = line;
-    let stroke = Stroke { item, ends, is_end: [true; 2], width: 1.0, outward, continues, from: 0.0 };
+    let stroke =
+        Stroke { item, ends, is_end: [true; 2], width: 1.0, outward, continues, from: 0.0 };
     numbers.all(f64::is_finite).then_some(stroke)
 }
 
@@ -264,7 +278,8 @@ impl Stroke {
         let last = ((self.from + end * length) / period).floor();
         let dash = |number: f64| {
             let begin = number * period - self.from;
-            [begin, begin + dash].map(|at| if length > 0.0 { (at / length).clamp(start, end) } else { start })
+            [begin, begin + dash]
+                .map(|at| if length > 0.0 { (at / length).clamp(start, end) } else { start })
         };
         let dashes = (0..=(last - first) as usize).map(|number| dash(first + number as f64));
         dashes.filter(|[start, end]| start < end).collect()
@@ -313,12 +328,17 @@ pub fn between(
 }
 
 /// Strokes as strips of this width, in samples.
-pub fn strips(painter: &Painter<'_>, strokes: &[Stroke], width: f64) -> PolygonList<TRANSPARENT_VALUES> {
+pub fn strips(
+    painter: &Painter<'_>,
+    strokes: &[Stroke],
+    width: f64,
+) -> PolygonList<TRANSPARENT_VALUES> {
     let mut list = PolygonList::default();
     for stroke in strokes {
         let Stroke { item, ends: [a, b], is_end, .. } = stroke;
         let (length, width) = (stroke.length(), width * stroke.width);
-        let along = if length > 0.0 { [(b.x - a.x) / length, (b.y - a.y) / length] } else { [1.0, 0.0] };
+        let along =
+            if length > 0.0 { [(b.x - a.x) / length, (b.y - a.y) / length] } else { [1.0, 0.0] };
         let [along_x, along_y] = along.map(|part| 0.5 * width * part);
         let [before, behind] = is_end.map(|is_end| f64::from(u8::from(is_end)));
         let corner = |end: &Corner<TRANSPARENT_VALUES>, forth: f64, aside: f64| Corner {

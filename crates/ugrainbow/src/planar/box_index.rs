@@ -31,7 +31,8 @@ impl BoxIndex {
     pub fn empty(n_shapes: usize, size: [u32; 2]) -> Self {
         let side = (n_shapes as f64).sqrt().ceil() as usize;
         let n = side.clamp(1, MAX_CELLS).next_power_of_two();
-        let grids = (0..=n.ilog2()).map(|coarser| vec![Vec::new(); (n >> coarser) * (n >> coarser)]);
+        let grids =
+            (0..=n.ilog2()).map(|coarser| vec![Vec::new(); (n >> coarser) * (n >> coarser)]);
         Self { grids: grids.collect(), n, size: size.map(f64::from), boxes: Vec::new() }
     }
 
@@ -40,8 +41,9 @@ impl BoxIndex {
         let shape = self.boxes.len();
         self.boxes.push(its_box);
         let ends = self.ends(its_box);
-        let is_small =
-            |coarser: &usize| ends.iter().all(|[low, high]| (high >> coarser) - (low >> coarser) < 2);
+        let is_small = |coarser: &usize| {
+            ends.iter().all(|[low, high]| (high >> coarser) - (low >> coarser) < 2)
+        };
         // Everything fits the grid of one cell.
         let coarser = (0..self.grids.len()).find(is_small).unwrap_or(self.grids.len() - 1);
         for cell in self.cells(ends, coarser) {
@@ -67,7 +69,8 @@ impl BoxIndex {
     pub fn has_any_in(&self, asked: [[f64; 2]; 2]) -> bool {
         let ends = self.ends(asked);
         let has_any = |(coarser, grid): (usize, &Vec<Vec<usize>>)| {
-            self.cells(ends, coarser).any(|cell| grid[cell].iter().any(|&shape| self.overlaps(shape, asked)))
+            self.cells(ends, coarser)
+                .any(|cell| grid[cell].iter().any(|&shape| self.overlaps(shape, asked)))
         };
         self.grids.iter().enumerate().any(has_any)
     }

@@ -151,7 +151,10 @@ impl Convex {
     /// The parts of another behind and in front of the plane of `self`.
     pub fn split(&self, other: &Self) -> [Option<Self>; 2] {
         let ahead = |[x, y, key]: DepthPoint| key - self.key(x, y);
-        [Self::new(clip(&other.corners, |place| -ahead(place))), Self::new(clip(&other.corners, ahead))]
+        [
+            Self::new(clip(&other.corners, |place| -ahead(place))),
+            Self::new(clip(&other.corners, ahead)),
+        ]
     }
 
     /// The part of the segment from `a` to `b` that lies over this polygon, as parameters in 0…1.
@@ -188,7 +191,10 @@ impl Convex {
         let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Self) -> [f64; 2]| {
             [0, 1].map(|axis| parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
         };
-        [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
+        [
+            fold(f64::INFINITY, f64::min, |part| part.low),
+            fold(f64::NEG_INFINITY, f64::max, |part| part.high),
+        ]
     }
 
     /// The longer side of its bounding box.

@@ -7,7 +7,11 @@ use ugpicture::DepthPoint;
 use super::convex::{Convex, clip, doubled_area, sides};
 
 /// Clips a contour to the picture and a `margin` around it.
-pub fn clipped_to_picture(mut contour: Vec<DepthPoint>, size: [u32; 2], margin: f64) -> Vec<DepthPoint> {
+pub fn clipped_to_picture(
+    mut contour: Vec<DepthPoint>,
+    size: [u32; 2],
+    margin: f64,
+) -> Vec<DepthPoint> {
     for axis in 0..2 {
         let end = f64::from(size[axis]) + margin;
         if contour.iter().any(|place| place[axis] < -margin) {
@@ -37,7 +41,10 @@ fn flat_parts(corners: Vec<DepthPoint>) -> Vec<Convex> {
         return vec![whole];
     }
     let first = whole.corners[0];
-    whole.corners[1..].windows(2).filter_map(|pair| Convex::new(vec![first, pair[0], pair[1]])).collect()
+    whole.corners[1..]
+        .windows(2)
+        .filter_map(|pair| Convex::new(vec![first, pair[0], pair[1]]))
+        .collect()
 }
 
 /// True if the outline turns in one direction only, and winds once.
@@ -85,7 +92,8 @@ fn trapezoids(outline: &[Vec<DepthPoint>]) -> Vec<Vec<DepthPoint>> {
         n_begun += begun;
         crossed.retain(|&edge: &usize| edges[edge].1[1] >= bottom);
         let doubled_middle = |edge: usize| at(edge, top)[0] + at(edge, bottom)[0];
-        let mut crossings: Vec<_> = crossed.iter().map(|&edge| (doubled_middle(edge), edge)).collect();
+        let mut crossings: Vec<_> =
+            crossed.iter().map(|&edge| (doubled_middle(edge), edge)).collect();
         crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
         let between: BTreeMap<_, _> =
             crossings.chunks_exact(2).map(|pair| ([pair[0].1, pair[1].1], top)).collect();

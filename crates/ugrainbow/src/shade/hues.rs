@@ -24,7 +24,11 @@ pub struct Pure {
 /// Display-encoded red, green and blue of a colour, clipped to `ceiling`, and the greatest of them
 /// before clipping. `values`: the value under red, green and blue light.  Eq. (P17)
 #[inline(always)] // Into loops over many samples.
-pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f32) -> ([f32; 3], f32) {
+pub fn encode(
+    Pure { hue, fade, saturation }: Pure,
+    values: [f32; 3],
+    ceiling: f32,
+) -> ([f32; 3], f32) {
     let pure = saturation * fade;
     let faded = (1.0 - saturation) + pure;
     let per_kept = if faded > 0.0 { 1.0 / faded } else { 0.0 };
@@ -99,14 +103,16 @@ fn encode_run<S: Simd>(
     match (fades, lights) {
         (None, None) => {
             for i in 0..n {
-                ([red[i], green[i], blue[i]], intensities[i]) = encode(bright(i), [values[i]; 3], ceiling);
+                ([red[i], green[i], blue[i]], intensities[i]) =
+                    encode(bright(i), [values[i]; 3], ceiling);
             }
         }
         (Some(fades), None) => {
             let fades = &fades[..n];
             for i in 0..n {
                 let pure = Pure { fade: fades[i], ..bright(i) };
-                ([red[i], green[i], blue[i]], intensities[i]) = encode(pure, [values[i]; 3], ceiling);
+                ([red[i], green[i], blue[i]], intensities[i]) =
+                    encode(pure, [values[i]; 3], ceiling);
             }
         }
         (_, Some([reds, greens, blues])) => {

@@ -38,7 +38,12 @@ impl Shader {
     /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in
     /// 1988; otherwise the transfer function is continued above 1. `acts_on_light`: light levels
     /// multiply linear light, see [`ugphysics::Brightness::acts_on_light`].
-    pub fn new(interpolation: Interpolation, is_clipped: bool, acts_on_light: bool, layout: Layout) -> Self {
+    pub fn new(
+        interpolation: Interpolation,
+        is_clipped: bool,
+        acts_on_light: bool,
+        layout: Layout,
+    ) -> Self {
         let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
         Self {
             interpolation,
@@ -80,7 +85,12 @@ impl Shader {
     }
 
     /// As [`Shader::faded`], of linear light. `lights`: the levels that are contained in it.
-    fn faded_light(&self, light: [f32; 3], intensity: f32, lights: [f32; 3]) -> ([f32; 3], f32, f32) {
+    fn faded_light(
+        &self,
+        light: [f32; 3],
+        intensity: f32,
+        lights: [f32; 3],
+    ) -> ([f32; 3], f32, f32) {
         let most = lights.into_iter().fold(0.0, f32::max);
         if most <= 0.0 || light[1] >= light[0].min(light[2]) {
             return (light, intensity, 1.0);
@@ -117,7 +127,8 @@ impl Shader {
             own_fades = [1.0; RUN];
             let [low, high] = self.bright_tints();
             for (idx, fade) in own_fades[..n].iter_mut().enumerate() {
-                let is_product = || lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
+                let is_product =
+                    || lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
                 if !(low..=high).contains(&tints[idx]) && !is_product() {
                     *fade = self.fade(tints[idx], saturations[idx]);
                 }
@@ -159,7 +170,8 @@ impl Shader {
         for idx in 0..n {
             let levels = lights.map_or([1.0; 3], |lights| lights.map(|level| level[idx]));
             let own = run.light.each_ref().map(|channel| channel[idx]);
-            let (mut light, mut intensity) = times(own, linear(run.intensity[idx]), levels, self.ceiling);
+            let (mut light, mut intensity) =
+                times(own, linear(run.intensity[idx]), levels, self.ceiling);
             if is_product(levels) {
                 let fade;
                 (light, intensity, fade) = self.faded_light(light, intensity, levels);
@@ -284,10 +296,17 @@ fn set_light<S: Simd>(
 }
 
 /// Encodes the samples that are light for a display, if that is wanted.
-fn encode_light(n: usize, is_given: impl Fn(usize) -> bool, encoding: Encoding, run: &mut ShadedRun) {
+fn encode_light(
+    n: usize,
+    is_given: impl Fn(usize) -> bool,
+    encoding: Encoding,
+    run: &mut ShadedRun,
+) {
     if encoding == Encoding::Display {
         for idx in (0..n).filter(|&idx| is_given(idx)) {
-            run.light.iter_mut().for_each(|light| light[idx] = srgb_encode(f64::from(light[idx])) as f32);
+            run.light
+                .iter_mut()
+                .for_each(|light| light[idx] = srgb_encode(f64::from(light[idx])) as f32);
         }
     }
 }
@@ -366,7 +385,10 @@ mod tests {
                 // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of
                 // decoding is at most 2.3.
                 for (now, before) in shade.light.iter().zip(before) {
-                    assert!((now - before).abs() < 0.002, "hue {hue}, saturation {saturation}: {shade:?}");
+                    assert!(
+                        (now - before).abs() < 0.002,
+                        "hue {hue}, saturation {saturation}: {shade:?}"
+                    );
                 }
                 before = shade.light;
             }
@@ -399,7 +421,9 @@ mod tests {
     #[test]
     fn wavelengths_fade_at_both_ends() {
         let shader = hues(Interpolation::Wavelength, true, false);
-        for nm in [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0] {
+        for nm in
+            [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0]
+        {
             let fade = attenuation(nm);
             let shade = shader.one(&[nm as f32, 1.0, 1.0]);
             assert_light(&shade, exact(wavelength_to_hue(nm), 1.0, fade));
@@ -424,7 +448,8 @@ mod tests {
                 }
                 shader.shade(columns.each_ref().map(|all| &all[..]), Encoding::Display, &mut run);
                 for (idx, numbers) in chunk.iter().enumerate() {
-                    let levels = shader.one(numbers).light.map(|light| srgb_encode(f64::from(light)));
+                    let levels =
+                        shader.one(numbers).light.map(|light| srgb_encode(f64::from(light)));
                     for (ours, exact) in run.get(idx).light.iter().zip(levels) {
                         // Where the curve is steepest, an error of 3e-7 in light is 4e-6 of a
                         // level.
@@ -469,7 +494,9 @@ mod tests {
                 let shader = Shader { level, ..hues(interpolation, is_clipped, acts_on_light) };
                 let few: Vec<_> = samples.iter().map(|(color, ..)| *color).collect();
                 check_runs(&shader, &few);
-                let all = samples.iter().map(|&([a, b, c], [d, e, f], light)| [a, b, c, d, e, f, light, 0.0]);
+                let all = samples
+                    .iter()
+                    .map(|&([a, b, c], [d, e, f], light)| [a, b, c, d, e, f, light, 0.0]);
                 check_runs(&shader, &all.collect::<Vec<_>>());
                 let shader = Shader { is_light: true, ..shader };
                 check_runs(&shader, &few);
@@ -509,7 +536,10 @@ mod tests {
                 let scale = f64::from(level) / if is_clipped { bright.max(1.0) } else { 1.0 };
                 // Single precision, of which the level multiplies the errors.
                 for (found, own) in shade.light.iter().zip(own) {
-                    assert!((f64::from(*found) - scale * own).abs() < 1e-6 * scale.max(1.0), "{shade:?}");
+                    assert!(
+                        (f64::from(*found) - scale * own).abs() < 1e-6 * scale.max(1.0),
+                        "{shade:?}"
+                    );
                 }
                 assert!((f64::from(shade.intensity) - bright).abs() < 1e-6);
             }
@@ -521,10 +551,14 @@ mod tests {
         let shader = hues(Interpolation::Hue, false, false);
         for value in [0.25, 1.0, 1.0001, 1.5, 40.0] {
             let shade = shader.one(&[120.0, 0.5, value]);
-            let light =
-                Hsv { hue: 120.0, saturation: 0.5, value: f64::from(value) }.to_rgb().map(srgb_decode);
+            let light = Hsv { hue: 120.0, saturation: 0.5, value: f64::from(value) }
+                .to_rgb()
+                .map(srgb_decode);
             for (ours, exact) in shade.light.iter().zip(light) {
-                assert!((f64::from(*ours) - exact).abs() < 1e-6 * exact.max(1.0), "{shade:?} {light:?}");
+                assert!(
+                    (f64::from(*ours) - exact).abs() < 1e-6 * exact.max(1.0),
+                    "{shade:?} {light:?}"
+                );
             }
         }
         let light = [7.0, -0.5, 0.25];

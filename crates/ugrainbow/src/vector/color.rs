@@ -46,7 +46,8 @@ impl FigureColors<'_> {
     ) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
-        let line = SeenLayer { light: self.cued(self.layers.shader.one(&values), at.key), pass: 0.0 };
+        let line =
+            SeenLayer { light: self.cued(self.layers.shader.one(&values), at.key), pass: 0.0 };
         let layer = |patch: &'p Patch| {
             let numbers = patch.interpolants_at([at.x, at.y]);
             (numbers.key, self.layer(patch, &numbers))
@@ -83,7 +84,8 @@ impl FigureColors<'_> {
 
     /// Light developed for a display. `pass`: the part of the background in it.
     pub fn levels(&self, light @ [red, green, blue]: [f32; 3], pass: f32) -> Levels {
-        let convert = |development| self.backdrop.converter(development)([red, green, blue, 1.0 - pass]);
+        let convert =
+            |development| self.backdrop.converter(development)([red, green, blue, 1.0 - pass]);
         let light = self.development.map_or(light, convert);
         [0, 1, 2].map(|i| 255.0 * srgb_encode(f64::from(light[i]).clamp(0.0, 1.0)))
     }

@@ -15,7 +15,11 @@ pub fn without_hidden(patches: Vec<Patch>, index: &BoxIndex, is_seen: &[bool]) -
     let is_known = |patch: &Patch| is_seen[patch.item as usize] || work.is_exceeded();
     let is_kept = |patch: &Patch| is_known(patch) || !is_hidden(patch, &patches, index, &work);
     let is_kept: Vec<bool> = patches.iter().map(is_kept).collect();
-    patches.into_iter().zip(is_kept).filter_map(|(patch, is_kept)| is_kept.then_some(patch)).collect()
+    patches
+        .into_iter()
+        .zip(is_kept)
+        .filter_map(|(patch, is_kept)| is_kept.then_some(patch))
+        .collect()
 }
 
 fn is_hidden(patch: &Patch, patches: &[Patch], index: &BoxIndex, work: &Work) -> bool {

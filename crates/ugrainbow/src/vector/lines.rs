@@ -27,9 +27,13 @@ impl TransparentPatches<'_> {
     /// and their numbers.
     fn before(&self, stroke: &Stroke) -> Vec<([f64; 2], usize)> {
         let [a, b] = stroke.ends.map(|end| [end.x, end.y, end.key]);
-        let near =
-            self.index.in_box(stroke.bounds()).into_iter().filter(|&idx| self.patches[idx].is_transparent);
-        let parts = near.flat_map(|idx| self.patches[idx].parts.iter().map(move |part| (idx, part)));
+        let near = self
+            .index
+            .in_box(stroke.bounds())
+            .into_iter()
+            .filter(|&idx| self.patches[idx].is_transparent);
+        let parts =
+            near.flat_map(|idx| self.patches[idx].parts.iter().map(move |part| (idx, part)));
         parts.filter_map(|(idx, part)| occluded_part(part, a, b).map(|way| (way, idx))).collect()
     }
 }
@@ -51,7 +55,8 @@ pub fn push_lines<S>(
         let before = in_front.before(stroke);
         for way in cuts(stroke, &before).windows(2) {
             let middle = 0.5 * (way[0] + way[1]);
-            let is_before = |([start, end], _): &&([f64; 2], usize)| (*start..=*end).contains(&middle);
+            let is_before =
+                |([start, end], _): &&([f64; 2], usize)| (*start..=*end).contains(&middle);
             let in_front: Vec<&Patch> =
                 before.iter().filter(is_before).map(|(_, idx)| &in_front.patches[*idx]).collect();
             push_line(colors, stroke, [way[0], way[1]], &in_front, width, elements);
@@ -92,12 +97,14 @@ fn push_line<S>(
         };
         [a.x + (b.x - a.x) * part, a.y + (b.y - a.y) * part]
     };
-    let color = |part: f64| -> Levels { colors.on_line(&between(a, b, part), in_front.iter().copied()) };
+    let color =
+        |part: f64| -> Levels { colors.on_line(&between(a, b, part), in_front.iter().copied()) };
     let mut stack = vec![way];
     while let Some([start, end]) = stack.pop() {
         let middle = 0.5 * (start + end);
         let (first, last, between) = (color(start), color(end), color(middle));
-        let change = distance(first, between).max(distance(between, last)).max(distance(first, last));
+        let change =
+            distance(first, between).max(distance(between, last)).max(distance(first, last));
         if change > STEP && (end - start) * length > LEAST {
             stack.extend([[middle, end], [start, middle]]);
             continue;

@@ -94,7 +94,8 @@ impl<'a> Groups<'a> {
             return;
         }
         // The smaller group moves, if it can.
-        let (small, large) = if self.members[a].len() < self.members[b].len() { (a, b) } else { (b, a) };
+        let (small, large) =
+            if self.members[a].len() < self.members[b].len() { (a, b) } else { (b, a) };
         let place = if self.can_move(small, self.place[large]) {
             self.place[large]
         } else if self.can_move(large, self.place[small]) {
@@ -116,7 +117,9 @@ impl<'a> Groups<'a> {
             let parts = &self.areas[member].0.parts;
             self.index.in_box(Convex::bounds(parts)).into_iter().all(|other| {
                 let its = self.group[other];
-                its == group || !way.contains(&self.place[its]) || !overlap(parts, &self.areas[other].0.parts)
+                its == group
+                    || !way.contains(&self.place[its])
+                    || !overlap(parts, &self.areas[other].0.parts)
             })
         })
     }
@@ -134,7 +137,8 @@ fn outlines(mut all: Vec<SnappedEdge>) -> Vec<Vec<Point>> {
     all.retain(|[a, b]| a != b);
     all.sort_unstable_by_key(ends);
     let of_one_place = all.chunk_by(|one, other| ends(one) == ends(other));
-    let odd: Vec<SnappedEdge> = of_one_place.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
+    let odd: Vec<SnappedEdge> =
+        of_one_place.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
     let mut at_place: HashMap<[i64; 2], [Vec<usize>; 2]> = HashMap::new();
     for (idx, edge) in odd.iter().enumerate() {
         for end in [0, 1] {
@@ -149,7 +153,9 @@ fn outlines(mut all: Vec<SnappedEdge>) -> Vec<Vec<Point>> {
         // Edges are followed forwards, and backwards only where outlines overlap.
         while !is_used[first] || place != odd[first][0] {
             let Some(edges) = at_place.get_mut(&place) else { break };
-            let Some(next) = edges.iter_mut().find_map(|edges| unused(edges, &is_used)) else { break };
+            let Some(next) = edges.iter_mut().find_map(|edges| unused(edges, &is_used)) else {
+                break;
+            };
             is_used[next] = true;
             outline.push(place.map(|hundredths| hundredths as f64 / 100.0));
             let [a, b] = odd[next];
@@ -173,9 +179,13 @@ mod tests {
 
     fn square(left: f64, top: f64, color: u8) -> (PaintedArea, Option<Rgb>) {
         let [right, bottom] = [left + 1.0, top + 1.0];
-        let corners = vec![[left, top, 1.0], [right, top, 1.0], [right, bottom, 1.0], [left, bottom, 1.0]];
+        let corners =
+            vec![[left, top, 1.0], [right, top, 1.0], [right, bottom, 1.0], [left, bottom, 1.0]];
         let part = Convex::new(corners).unwrap();
-        (PaintedArea { layers: vec![0], contours: vec![part.outline()], parts: vec![part] }, Some([color; 3]))
+        (
+            PaintedArea { layers: vec![0], contours: vec![part.outline()], parts: vec![part] },
+            Some([color; 3]),
+        )
     }
 
     /// Number of outlines and doubled area of each paint.
@@ -195,15 +205,18 @@ mod tests {
 
     #[test]
     fn neighbours_of_one_colour_become_one() {
-        let row = || vec![square(0.0, 0.0, 1), square(1.0, 0.0, 1), square(3.0, 0.0, 1), square(2.0, 0.0, 1)];
+        let row = || {
+            vec![square(0.0, 0.0, 1), square(1.0, 0.0, 1), square(3.0, 0.0, 1), square(2.0, 0.0, 1)]
+        };
         assert_eq!(shapes(row()), [(1, 8.0)]);
         // Neighbours of another colour, and some that touch only at a corner.
         let mut more = row();
         more.extend([square(0.0, 1.0, 2), square(4.0, 1.0, 1)]);
         assert_eq!(shapes(more), [(1, 8.0), (1, 2.0), (1, 2.0)]);
         // A ring has two outlines.
-        let ring =
-            (0..9).filter(|idx| *idx != 4).map(|idx| square(f64::from(idx % 3), f64::from(idx / 3), 1));
+        let ring = (0..9)
+            .filter(|idx| *idx != 4)
+            .map(|idx| square(f64::from(idx % 3), f64::from(idx / 3), 1));
         let [(2, area)] = shapes(ring.collect())[..] else { panic!("one area with a hole") };
         assert_eq!(area, 18.0 + 2.0);
     }
@@ -215,7 +228,10 @@ mod tests {
         assert_eq!(shapes(vec![square(0.0, 0.0, 1), cover(), square(1.0, 0.0, 1)]).len(), 3);
         // Covers the first alone: the last is painted early, or the first stays below.
         let beside = square(0.0, 0.5, 2);
-        assert_eq!(shapes(vec![square(0.0, 0.0, 1), beside, square(1.0, 0.0, 1)]), [(1, 4.0), (1, 2.0)]);
+        assert_eq!(
+            shapes(vec![square(0.0, 0.0, 1), beside, square(1.0, 0.0, 1)]),
+            [(1, 4.0), (1, 2.0)]
+        );
         // Overlapping areas cannot be merged under the even-odd rule.
         let over = square(0.0, 0.5, 1);
         assert_eq!(shapes(vec![square(0.0, 0.0, 1), over]).len(), 2);

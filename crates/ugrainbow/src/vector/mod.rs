@@ -256,7 +256,8 @@ mod tests {
                 key: along.z,
                 values: [0.0; 8],
             };
-            let contour = vec![corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 0.1), corner(-1.0, 0.1)];
+            let contour =
+                vec![corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 0.1), corner(-1.0, 0.1)];
             patches.extend(Patch::new(item, false, vec![contour], [100, 100], false));
         }
         let index = BoxIndex::new(patches.iter().map(Patch::bounds), [100, 100]);
@@ -265,7 +266,9 @@ mod tests {
         // A face is compared with the others before the limit is seen.
         assert!(work.done() < (1 << 20) + 16 * 3000, "{work:?}");
         let work = Work::new(order::MOST_WORK);
-        assert!(order::painting_order(&patches, &index, &work).is_ok_and(|pieces| pieces.len() >= 3000));
+        assert!(
+            order::painting_order(&patches, &index, &work).is_ok_and(|pieces| pieces.len() >= 3000)
+        );
         assert!(work.done() > 1 << 21);
     }
 }

@@ -30,7 +30,11 @@ const CANDIDATES: usize = 8;
 ///
 /// # Errors
 /// They overlap so often that the work exceeds its limit.
-pub fn painting_order(patches: &[Patch], index: &BoxIndex, work: &Work) -> Result<Vec<Piece>, Error> {
+pub fn painting_order(
+    patches: &[Patch],
+    index: &BoxIndex,
+    work: &Work,
+) -> Result<Vec<Piece>, Error> {
     let behind = relations(patches, index, work);
     let mut pieces = Vec::new();
     for group in strong_components(&behind) {
@@ -143,7 +147,9 @@ enum Step {
 fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>, work: &Work) {
     let mut group = group.to_vec();
     group.sort_unstable();
-    let parts = group.iter().flat_map(|&idx| patches[idx].parts.iter().map(move |part| (idx, part.clone())));
+    let parts = group
+        .iter()
+        .flat_map(|&idx| patches[idx].parts.iter().map(move |part| (idx, part.clone())));
     let mut steps = vec![Step::Divide(parts.collect())];
     while let Some(step) = steps.pop() {
         if work.is_exceeded() {
@@ -174,10 +180,15 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>, work: 
 fn divide(patches: &[Patch], parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
     let stride = parts.len().div_ceil(CANDIDATES);
     let side_of = |(splitter, plane): &(usize, Convex), (idx, part): &(usize, Convex)| {
-        if patches[*splitter].is_in_plane_of(&patches[*idx]) { Some(0) } else { plane.side_of(part) }
+        if patches[*splitter].is_in_plane_of(&patches[*idx]) {
+            Some(0)
+        } else {
+            plane.side_of(part)
+        }
     };
     let cuts = |plane: &_| parts.iter().filter(|part| side_of(plane, part).is_none()).count();
-    let splitter = (0..parts.len()).step_by(stride).min_by_key(|&idx| cuts(&parts[idx])).unwrap_or(0);
+    let splitter =
+        (0..parts.len()).step_by(stride).min_by_key(|&idx| cuts(&parts[idx])).unwrap_or(0);
     let plane = parts[splitter].clone();
     let [mut behind, mut on, mut before] = [const { Vec::new() }; 3];
     for (number, part) in parts.into_iter().enumerate() {

@@ -76,7 +76,8 @@ impl Patch {
             .map(|(a, b)| between(a, b, (y - a.y) / (b.y - a.y)))
             .collect();
         crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
-        let distance = |pair: &[Corner<TRANSPARENT_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
+        let distance =
+            |pair: &[Corner<TRANSPARENT_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
         let nearest = crossings.chunks_exact(2).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let here = match nearest {
             Some([left, right]) if right.x > left.x => {
@@ -119,7 +120,11 @@ fn oriented(mut outline: Vec<Vec<DepthPoint>>) -> Vec<Vec<DepthPoint>> {
     };
     let is_reversed = |idx: usize| (doubled_area(&outline[idx]) < 0.0) != is_hole(idx);
     let is_reversed: Vec<bool> = (0..outline.len()).map(is_reversed).collect();
-    outline.iter_mut().zip(is_reversed).filter(|(_, is)| *is).for_each(|(contour, _)| contour.reverse());
+    outline
+        .iter_mut()
+        .zip(is_reversed)
+        .filter(|(_, is)| *is)
+        .for_each(|(contour, _)| contour.reverse());
     outline
 }
 

@@ -35,7 +35,8 @@ pub fn n_fragments(layers: &RenderLayers<'_>, size: [u32; 2]) -> f64 {
 /// About how many samples of a picture of this size a polygon covers.
 fn n_samples(contours: &[Vec<Corner<TRANSPARENT_VALUES>>], size: [u32; 2]) -> f64 {
     let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
-    let area = |contour: &Vec<_>| 0.5 * doubled_area(&contour.iter().map(place).collect::<Vec<_>>()).abs();
+    let area =
+        |contour: &Vec<_>| 0.5 * doubled_area(&contour.iter().map(place).collect::<Vec<_>>()).abs();
     let extent = |axis: usize| {
         let places = || contours.iter().flatten().map(|corner| place(corner)[axis]);
         let end = f64::from(size[axis]);
@@ -72,8 +73,9 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
             scene.face_corners(face).iter().for_each(|vertex| is_corner[vertex.index()] = true);
         }
     }
-    let has_seen_corner =
-        |face: &ugscene::Face| scene.face_corners(face).iter().any(|vertex| is_corner[vertex.index()]);
+    let has_seen_corner = |face: &ugscene::Face| {
+        scene.face_corners(face).iter().any(|vertex| is_corner[vertex.index()])
+    };
     let is_near = scene.faces.iter().map(has_seen_corner).collect();
     Faces { is_seen, is_near, stats }
 }
@@ -85,7 +87,8 @@ mod tests {
     #[test]
     fn samples_outside_the_picture_are_not_counted() {
         let square = |low: f64, high: f64| {
-            let corner = |[x, y]: [f64; 2]| Corner { x, y, key: 1.0, values: [0.0; TRANSPARENT_VALUES] };
+            let corner =
+                |[x, y]: [f64; 2]| Corner { x, y, key: 1.0, values: [0.0; TRANSPARENT_VALUES] };
             vec![[[low, low], [high, low], [high, high], [low, high]].map(corner).to_vec()]
         };
         assert_eq!(n_samples(&square(10.0, 14.0), [64, 32]), 16.0);

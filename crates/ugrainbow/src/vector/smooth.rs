@@ -24,7 +24,12 @@ const MOST_CUTS: u32 = 14;
 /// Smooth colour as a format supports it.
 pub trait Smooth: Sized {
     /// Adds smooth elements for the parts of an area whose outline is `contours`.
-    fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
+    fn push(
+        job: &Job<'_>,
+        contours: Vec<Vec<Point>>,
+        parts: &[Convex],
+        elements: &mut Vec<Element<Self>>,
+    );
 }
 
 /// An area being painted.
@@ -36,7 +41,11 @@ pub struct Job<'a> {
 }
 
 /// The colour of an area, if it is nearly the same everywhere.
-pub fn plain_color(colors: &FigureColors<'_>, patches: &[Patch], area: &PaintedArea) -> Option<Rgb> {
+pub fn plain_color(
+    colors: &FigureColors<'_>,
+    patches: &[Patch],
+    area: &PaintedArea,
+) -> Option<Rgb> {
     let job = Job { colors, patches, layers: &area.layers };
     colors.everywhere(job.layers()).or_else(|| plain(&job.tried(&area.parts))).map(rounded)
 }
@@ -84,7 +93,12 @@ impl Job<'_> {
 }
 
 impl Smooth for GouraudTriangle {
-    fn push(job: &Job<'_>, _: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
+    fn push(
+        job: &Job<'_>,
+        _: Vec<Vec<Point>>,
+        parts: &[Convex],
+        elements: &mut Vec<Element<Self>>,
+    ) {
         for part in parts {
             let corners = part.outline();
             for pair in corners[1..].windows(2) {
@@ -96,13 +110,19 @@ impl Smooth for GouraudTriangle {
 }
 
 /// Adds a triangle, halved until colour is linear in its parts.
-fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element<GouraudTriangle>>) {
+fn push_triangles(
+    job: &Job<'_>,
+    corners: [Point; 3],
+    elements: &mut Vec<Element<GouraudTriangle>>,
+) {
     let mut stack = vec![(corners, corners.map(|corner| job.color(corner)), 0)];
     while let Some((corners, colors, cuts)) = stack.pop() {
         let middles = [0, 1, 2].map(|i| middle(corners[i], corners[(i + 1) % 3]));
         let colors_there = middles.map(|place| job.color(place));
-        let errors = [0, 1, 2].map(|i| distance(colors_there[i], mean(colors[i], colors[(i + 1) % 3])));
-        let center = [0, 1].map(|axis| (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3.0);
+        let errors =
+            [0, 1, 2].map(|i| distance(colors_there[i], mean(colors[i], colors[(i + 1) % 3])));
+        let center =
+            [0, 1].map(|axis| (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3.0);
         let mean_color = [0, 1, 2].map(|i| (colors[0][i] + colors[1][i] + colors[2][i]) / 3.0);
         let error = errors.into_iter().fold(distance(job.color(center), mean_color), f64::max);
         let length = |i: usize| {
@@ -111,7 +131,8 @@ fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element
         };
         let longest = greatest([0, 1, 2].map(length));
         if error <= BOUND || cuts == MOST_CUTS || length(longest) < LEAST {
-            elements.push(Element::Smooth(GouraudTriangle { corners, colors: colors.map(rounded) }));
+            elements
+                .push(Element::Smooth(GouraudTriangle { corners, colors: colors.map(rounded) }));
             continue;
         }
         // The edge along which colour is least linear; the longest if only the centre is off.
@@ -134,7 +155,12 @@ fn greatest(numbers: [f64; 3]) -> usize {
 }
 
 impl Smooth for Gradient {
-    fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
+    fn push(
+        job: &Job<'_>,
+        contours: Vec<Vec<Point>>,
+        parts: &[Convex],
+        elements: &mut Vec<Element<Self>>,
+    ) {
         let tried = job.tried(parts);
         let nearest = fitted(&tried, f64::INFINITY);
         if let Some((ends, colors)) = nearest {
@@ -150,14 +176,17 @@ impl Smooth for Gradient {
         if fitted(&tried, BOUND).is_some() {
             return;
         }
-        let mut stack: Vec<(Convex, u32)> = parts.iter().rev().map(|part| (part.clone(), 0)).collect();
+        let mut stack: Vec<(Convex, u32)> =
+            parts.iter().rev().map(|part| (part.clone(), 0)).collect();
         while let Some((part, cuts)) = stack.pop() {
             let tried = job.tried(std::slice::from_ref(&part));
             let contours = vec![part.outline()];
             let is_last = cuts == MOST_CUTS || part.extent() < LEAST;
             if let Some(color) = plain(&tried) {
                 elements.push(Element::Area { contours, color: rounded(color), is_inside: true });
-            } else if let Some((ends, colors)) = fitted(&tried, if is_last { f64::INFINITY } else { BOUND }) {
+            } else if let Some((ends, colors)) =
+                fitted(&tried, if is_last { f64::INFINITY } else { BOUND })
+            {
                 elements.push(Element::Smooth(Self {
                     contours,
                     ends,
@@ -196,8 +225,8 @@ fn fitted(tried: &[(Point, Levels)], bound: f64) -> Option<([Point; 2], [Levels;
     // For points on one line the slope across it is set to zero.
     let ridge = 1e-9 * (xx + yy) * (xx + yy);
     let determinant = determinant.max(ridge);
-    let slopes =
-        products.map(|[px, py]| [(px * yy - py * xy) / determinant, (py * xx - px * xy) / determinant]);
+    let slopes = products
+        .map(|[px, py]| [(px * yy - py * xy) / determinant, (py * xx - px * xy) / determinant]);
     let sum = |a: usize, b: usize| slopes.iter().map(|slope| slope[a] * slope[b]).sum::<f64>();
     let angle = 0.5 * libm::atan2(2.0 * sum(0, 1), sum(0, 0) - sum(1, 1));
     let (dy, dx) = libm::sincos(angle);
@@ -206,11 +235,13 @@ fn fitted(tried: &[(Point, Levels)], bound: f64) -> Option<([Point; 2], [Levels;
     let end = tried.iter().map(|(place, _)| along(*place)).fold(f64::NEG_INFINITY, f64::max);
     let square: f64 = tried.iter().map(|(place, _)| along(*place) * along(*place)).sum();
     let slope = [0, 1, 2].map(|i| {
-        let product: f64 = tried.iter().map(|(place, color)| along(*place) * (color[i] - center[i])).sum();
+        let product: f64 =
+            tried.iter().map(|(place, color)| along(*place) * (color[i] - center[i])).sum();
         if square > 0.0 { product / square } else { 0.0 }
     });
     let color = |t: f64| [0, 1, 2].map(|i| center[i] + slope[i] * t);
-    let is_near = tried.iter().all(|(place, levels)| distance(color(along(*place)), *levels) <= bound);
+    let is_near =
+        tried.iter().all(|(place, levels)| distance(color(along(*place)), *levels) <= bound);
     let place = |t: f64| [x0 + t * dx, y0 + t * dy];
     let shown = |t: f64| color(t).map(|level| level.clamp(0.0, 255.0));
     is_near.then(|| ([place(start), place(end)], [shown(start), shown(end)]))

@@ -35,11 +35,18 @@ pub struct PaintedArea {
 ///
 /// # Errors
 /// There are too many.
-pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<PaintedArea>, Error> {
+pub fn areas(
+    patches: &[Patch],
+    pieces: &[Piece],
+    size: [u32; 2],
+) -> Result<Vec<PaintedArea>, Error> {
     let has_clear = patches.iter().any(|patch| patch.is_transparent);
     let n_shapes = if has_clear { MOST_AREAS } else { 1 };
-    let mut areas =
-        PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new(), work: Work::new(MOST_WORK) };
+    let mut areas = PaintedAreas {
+        index: BoxIndex::empty(n_shapes, size),
+        all: Vec::new(),
+        work: Work::new(MOST_WORK),
+    };
     for piece in pieces {
         let area = whole(patches, piece);
         if patches[area.layers[0]].is_transparent {
@@ -158,11 +165,17 @@ mod tests {
         let mut areas = PaintedAreas { index, all: Vec::new(), work: Work::new(MOST_WORK) };
         let mut pane = || {
             let [x, y] = [30.0 * random.unit(), 30.0 * random.unit()];
-            let corners = [[x, y, 1.0], [x + 60.0, y, 1.0], [x + 60.0, y + 60.0, 1.0], [x, y + 60.0, 1.0]];
+            let corners =
+                [[x, y, 1.0], [x + 60.0, y, 1.0], [x + 60.0, y + 60.0, 1.0], [x, y + 60.0, 1.0]];
             of_parts(vec![0], vec![Convex::new(corners.to_vec()).unwrap()])
         };
         (0..20).for_each(|_| areas.push_transparent(pane()));
-        assert!(!areas.work.is_exceeded() && areas.all.len() > 200, "{:?} {}", areas.work, areas.all.len());
+        assert!(
+            !areas.work.is_exceeded() && areas.all.len() > 200,
+            "{:?} {}",
+            areas.work,
+            areas.all.len()
+        );
         let n_areas = areas.all.len();
         areas.work = Work::new(0);
         areas.work.count(1);

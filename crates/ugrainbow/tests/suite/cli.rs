@@ -21,7 +21,8 @@ cam -ep 0 -1 4 -vc 0 0 0;
 fn png_facts(file: &[u8]) -> (u32, u32, png::ColorType, String) {
     let reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
     let info = reader.info();
-    let comment = info.uncompressed_latin1_text.iter().find(|text| text.keyword == "Comment").unwrap();
+    let comment =
+        info.uncompressed_latin1_text.iter().find(|text| text.keyword == "Comment").unwrap();
     (info.width, info.height, info.color_type, comment.text.clone())
 }
 
@@ -52,7 +53,8 @@ fn a_size_may_be_a_length() {
 fn a_scene_without_a_camera_is_drawn_with_a_note() {
     let scene = SCENE.replace("cam -ep 0 -1 4 -vc 0 0 0;", "");
     let note = UGRAINBOW.notes("-sz 20 10", &scene);
-    let options = note.strip_prefix("ugrainbow: note: no camera in the scene: seen as with ").unwrap();
+    let options =
+        note.strip_prefix("ugrainbow: note: no camera in the scene: seen as with ").unwrap();
     let drawn = |options: &str| UGRAINBOW.output(&format!("-sz 20 10 -dt pfm {options}"), &scene);
     let (by_default, as_noted) = (drawn(""), drawn(&format!("{} -ud 0 0 1", options.trim_end())));
     assert_eq!(by_default.len(), as_noted.len());
@@ -61,7 +63,8 @@ fn a_scene_without_a_camera_is_drawn_with_a_note() {
         (a - b).abs() < 0.1
     };
     // The numbers of the note are rounded, which may move the outline by a part of a pixel.
-    let [one, other] = [&by_default, &as_noted].map(|file| file[file.len() - 2400..].chunks_exact(4));
+    let [one, other] =
+        [&by_default, &as_noted].map(|file| file[file.len() - 2400..].chunks_exact(4));
     let n_same = one.zip(other).filter(|&pair| is_same(pair)).count();
     assert!(n_same > 570, "{n_same} of 600");
 }
@@ -99,7 +102,8 @@ fn bad_usage_ends_with_2() {
     let formats = "none of the formats png, png16, eps, ps, pdf, svg, ppm, exr, pfm, hdr";
     check("-dt jpg", formats);
     check("-fo a.jpg", &format!("`.jpg` is {formats}; name one with -dt"));
-    let too_large = "a picture of 32768 x 16384 pixels cannot be made: the limit is 268435456 pixels";
+    let too_large =
+        "a picture of 32768 x 16384 pixels cannot be made: the limit is 268435456 pixels";
     check("-sz 32768 16384", too_large);
     check("-sz 0 8", "must be a whole number, 1 or more");
     check("-sz 8", "takes two values, not one");
@@ -129,7 +133,10 @@ fn bad_scenes_end_with_1() {
     check(&SCENE[..SCENE.len() - 10], "<stdin>:");
     check(&SCENE[..SCENE.find("-ep").unwrap()], "<stdin>:");
     check(&SCENE.replace("b c d)", "b c x)"), "`x`");
-    check(&SCENE.replace("-vc 0 0 0", "-vc 0 -1 4"), "the eye point 0 -1 4 is also the view centre");
+    check(
+        &SCENE.replace("-vc 0 0 0", "-vc 0 -1 4"),
+        "the eye point 0 -1 4 is also the view centre",
+    );
     UGRAINBOW.refuses("-fi no-such-scene.ug", "", 1, "`no-such-scene.ug`");
 }
 
@@ -181,5 +188,8 @@ fn skies_exclude_what_does_not_show_them() {
         UGRAINBOW.refuses(&format!("{sky} {options}"), SCENE, status, expected);
     }
     let ahead = "cam -ep 0 0 0 -vc 0 1 0;";
-    assert_ne!(UGRAINBOW.output(&sky, ahead), UGRAINBOW.output(&format!("{sky} --sky-turn 0 0 180"), ahead));
+    assert_ne!(
+        UGRAINBOW.output(&sky, ahead),
+        UGRAINBOW.output(&format!("{sky} --sky-turn 0 0 180"), ahead)
+    );
 }

@@ -159,12 +159,24 @@ fn check_sample(told: &Value) {
 fn people_are_told_the_same() {
     has_all(
         &text(SCENE, "--explain 7,10"),
-        &["face `wall`, id 1, <stdin>:7", "beta 0.538516", "law `photon`", "nm at rest", "directional 1"],
+        &[
+            "face `wall`, id 1, <stdin>:7",
+            "beta 0.538516",
+            "law `photon`",
+            "nm at rest",
+            "directional 1",
+        ],
     );
-    let still = "c green 1 120; l 1; v a -1 5 -1; v b 1 5 -1; v c 0 5 1; f (a b c) green; cam -vc 0 5 0;";
+    let still =
+        "c green 1 120; l 1; v a -1 5 -1; v b 1 5 -1; v c 0 5 1; f (a b c) green; cam -vc 0 5 0;";
     has_all(
         &text(still, "--explain 30,22"),
-        &["everything is at rest", "colours       at rest", "D             1 (P10)", "bytes         0 255 0"],
+        &[
+            "everything is at rest",
+            "colours       at rest",
+            "D             1 (P10)",
+            "bytes         0 255 0",
+        ],
     );
 }
 

@@ -6,13 +6,14 @@ use ugphysics::Hsv;
 use ugpicture::Canvas;
 use ugpipe::Words;
 use ugrainbow::{
-    AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Note, Output, PictureOptions,
-    Place, render, run,
+    AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Note, Output,
+    PictureOptions, Place, render, run,
 };
 
 use crate::common::{draw, scene, with};
 
-const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 -9 3) c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
+const SHIP: &str =
+    "(ugstage 1 geometry as-seen eye 0 -9 3) c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
     v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e -1 -1 1; v f 1 -1 1; v g 1 1 1; v h -1 1 1;
     f (a b f e) green <.5 0 0>; f (b c g f) green <.5 0 0>; f (c d h g) green <.5 0 0>;
     f (d a e h) green <.5 0 0>; f (e f g h) green <.5 0 0>; f (d c b a) green <.5 0 0>;";
@@ -35,15 +36,17 @@ fn scene_rows(config: &Config) -> u32 {
     let figure = draw(SHIP, config);
     assert_eq!([figure.width(), figure.height()], config.picture.size);
     let size = Canvas::new(&config.picture).unwrap().options().size;
-    let alone =
-        with(config, |picture| (picture.size, picture.annotations) = (size, AnnotationOptions::default()));
+    let alone = with(config, |picture| {
+        (picture.size, picture.annotations) = (size, AnnotationOptions::default())
+    });
     assert!(size[0] == figure.width() && figure.pixels().starts_with(draw(SHIP, &alone).pixels()));
     size[1]
 }
 
 #[test]
 fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
-    let plain = with(&Config::default(), |picture| (picture.size, picture.samples) = ([320, 240], 1));
+    let plain =
+        with(&Config::default(), |picture| (picture.size, picture.samples) = ([320, 240], 1));
     let caption = AnnotationOptions { legend: false, ..strips() };
     let legend = AnnotationOptions { caption: String::new(), ..strips() };
     for (background, figures, output, exact) in [
@@ -52,7 +55,8 @@ fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
         (Background::Transparent, legend, Output::Color(Format::Png), Some(ColorShift::default())),
     ] {
         let picture = with(&plain, |picture| {
-            (picture.background, picture.output, picture.annotations) = (background, output, figures)
+            (picture.background, picture.output, picture.annotations) =
+                (background, output, figures)
         });
         let rows = scene_rows(&Config { exact, ..picture });
         assert!((120..235).contains(&rows), "{rows}");
@@ -91,7 +95,10 @@ fn the_scene_is_that_of_the_part_that_is_left() {
             }
         }
         assert_eq!(n_seen, width * height, "{name}");
-        assert!(title.iter().any(|pixel| pixel[0] > 200) && title.contains(&[0, 0, 0, 255]), "{name}");
+        assert!(
+            title.iter().any(|pixel| pixel[0] > 200) && title.contains(&[0, 0, 0, 255]),
+            "{name}"
+        );
         let is_over = !matches!(place, Place::Below | Place::Beside);
         assert_eq!(width < SIZE[0], place == Place::Beside, "{name}");
         assert_eq!(height < 250, place == Place::Below, "{name}: {height}");
@@ -126,9 +133,11 @@ fn a_body_that_strips_cut_is_told() {
 /// Twice the size of text takes twice the rows.
 #[test]
 fn strips_grow_with_the_size_of_text() {
-    let plain = with(&Config::default(), |picture| (picture.size, picture.samples) = ([480, 300], 1));
+    let plain =
+        with(&Config::default(), |picture| (picture.size, picture.samples) = ([480, 300], 1));
     let rows = |text_size| {
-        let annotations = AnnotationOptions { text_size, legend: true, ..AnnotationOptions::default() };
+        let annotations =
+            AnnotationOptions { text_size, legend: true, ..AnnotationOptions::default() };
         300 - scene_rows(&with(&plain, |picture| picture.annotations = annotations))
     };
     let [small, large] = [rows(Some(6.0)), rows(Some(12.0))];
@@ -137,11 +146,18 @@ fn strips_grow_with_the_size_of_text() {
 
 #[test]
 fn the_caption_keeps_within_its_strip() {
-    for text in
-        ["β = 0.5", "jpqgy ÂÉ|", &"A long caption that needs several lines, ".repeat(5), "two\nlines", "i"]
-    {
-        for background in [Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), white()] {
-            let figures = AnnotationOptions { caption: text.into(), ..AnnotationOptions::default() };
+    for text in [
+        "β = 0.5",
+        "jpqgy ÂÉ|",
+        &"A long caption that needs several lines, ".repeat(5),
+        "two\nlines",
+        "i",
+    ] {
+        for background in
+            [Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), white()]
+        {
+            let figures =
+                AnnotationOptions { caption: text.into(), ..AnnotationOptions::default() };
             let config = with(&Config::default(), |picture| {
                 (picture.size, picture.samples, picture.background, picture.annotations) =
                     ([300, 300], 1, background, figures)
@@ -199,7 +215,10 @@ fn the_legend_has_the_hues_of_the_map() {
         if let Some(found) = hue(*x, row) {
             let expected = [-3.0, 3.0].map(|off| ugphysics::wavelength_to_hue(wavelength_nm + off));
             let found = if found > 330.0 { found - 360.0 } else { found };
-            assert!((expected[1]..=expected[0]).contains(&found), "{wavelength_nm} nm: {found} {expected:?}");
+            assert!(
+                (expected[1]..=expected[0]).contains(&found),
+                "{wavelength_nm} nm: {found} {expected:?}"
+            );
         }
     }
     // Ticks are evenly spaced, so all other wavelengths are where they belong.
@@ -210,7 +229,10 @@ fn the_legend_has_the_hues_of_the_map() {
     for wavelength_nm in [450.0, 486.1, 550.0, 589.0, 656.3] {
         let found = hue(at(wavelength_nm), row).unwrap();
         let expected = [-3.5, 3.5].map(|off| ugphysics::wavelength_to_hue(wavelength_nm + off));
-        assert!((expected[1]..=expected[0]).contains(&found), "{wavelength_nm} nm: {found} {expected:?}");
+        assert!(
+            (expected[1]..=expected[0]).contains(&found),
+            "{wavelength_nm} nm: {found} {expected:?}"
+        );
     }
 }
 
@@ -256,7 +278,8 @@ fn the_undistorted_outline_is_that_of_the_body_at_rest() {
     const FACES: [[usize; 4]; 6] =
         [[0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6], [4, 5, 7, 6], [2, 3, 1, 0]];
     let text = |velocity: &str, places: &[glam::DVec3]| {
-        let vertices = places.iter().enumerate().map(|(idx, p)| format!("v p{idx} {} {} {};", p.x, p.y, p.z));
+        let vertices =
+            places.iter().enumerate().map(|(idx, p)| format!("v p{idx} {} {} {};", p.x, p.y, p.z));
         let faces = FACES.iter().map(|face| {
             let names: Vec<String> = face.iter().map(|idx| format!("p{idx}")).collect();
             format!("f ({}) grey {velocity};", names.join(" "))
@@ -283,7 +306,8 @@ fn the_undistorted_outline_is_that_of_the_body_at_rest() {
         span(y, 240).flat_map(move |y| span(x, 320).map(move |x| (x, y)))
     };
     let is_edge = |x: u32, y: u32| near(x, y, 1).any(|(i, j)| rest.pixel(i, j) != rest.pixel(x, y));
-    let is_white = |x: u32, y: u32| outlined.pixel(x, y)[0] > plain.pixel(x, y)[0].saturating_add(40);
+    let is_white =
+        |x: u32, y: u32| outlined.pixel(x, y)[0] > plain.pixel(x, y)[0].saturating_add(40);
     let mut n_ink = 0;
     for y in 0..240 {
         for x in 0..320 {
@@ -292,7 +316,10 @@ fn the_undistorted_outline_is_that_of_the_body_at_rest() {
                 assert!(near(x, y, 2).any(|(i, j)| is_edge(i, j)), "ink at {x} {y} is at no edge");
             }
             if is_edge(x, y) {
-                assert!(near(x, y, 2).any(|(i, j)| is_white(i, j)), "the edge at {x} {y} has no ink");
+                assert!(
+                    near(x, y, 2).any(|(i, j)| is_white(i, j)),
+                    "the edge at {x} {y} has no ink"
+                );
             }
         }
     }

@@ -18,10 +18,15 @@ fn spline(order: i32, x: f64) -> f64 {
     let knots = 0..=order + 1;
     let sum: f64 = knots
         .map(|k| {
-            let choose = (0..k).fold(1.0, |all, i| all * f64::from(order + 1 - i) / f64::from(i + 1));
+            let choose =
+                (0..k).fold(1.0, |all, i| all * f64::from(order + 1 - i) / f64::from(i + 1));
             let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
             let reach = x + 0.5 * f64::from(order + 1) - f64::from(k);
-            if reach > 0.0 { sign * choose * (0..order).fold(1.0, |power, _| power * reach) } else { 0.0 }
+            if reach > 0.0 {
+                sign * choose * (0..order).fold(1.0, |power, _| power * reach)
+            } else {
+                0.0
+            }
         })
         .sum();
     sum / (1..=order).map(f64::from).product::<f64>()
@@ -43,7 +48,8 @@ fn check(filter: Filter, size: [u32; 2], samples: u32) {
     });
     let ours = light(SCENE, &config);
     let large = with(&config, |picture| {
-        (picture.filter, picture.size, picture.samples) = (Filter::Box, size.map(|side| side * samples), 1)
+        (picture.filter, picture.size, picture.samples) =
+            (Filter::Box, size.map(|side| side * samples), 1)
     });
     let all = light(SCENE, &large);
     // By rows, then by columns.
@@ -76,7 +82,10 @@ fn check(filter: Filter, size: [u32; 2], samples: u32) {
             // Sums in single precision; and occasionally a sample on an edge is assigned to the
             // other side.
             let off = (f64::from(*ours) - sum / total).abs();
-            assert!(off < 5e-6 * (1.0 + sum / total), "{filter:?} {size:?} {samples}: {idx}: {ours} {off}");
+            assert!(
+                off < 5e-6 * (1.0 + sum / total),
+                "{filter:?} {size:?} {samples}: {idx}: {ours} {off}"
+            );
         }
     }
     assert!(n_mixed > ours.len() / 4, "{n_mixed}");
@@ -104,8 +113,10 @@ fn small_bodies_keep_their_light_wherever_they_stand() {
     let angle = 2.0 * libm::atan(16.0 / 10.0).to_degrees();
     for filter in Filter::ALL {
         for (x, y) in (0..4).flat_map(|x| [(x, 0), (x, 3)]) {
-            let ([left, low], [right, high]) =
-                ([x, y].map(|place| f64::from(place) + 0.2), [x, y].map(|place| f64::from(place) + 0.8));
+            let ([left, low], [right, high]) = (
+                [x, y].map(|place| f64::from(place) + 0.2),
+                [x, y].map(|place| f64::from(place) + 0.8),
+            );
             let text = format!(
                 "c_xyz sun .9505 1 1.089; l 16; v a {left} {low} 0; v b {right} {low} 0; v c {right} {high} 0;
                  v d {left} {high} 0; f (a b c d) sun; cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};"
@@ -131,7 +142,10 @@ fn covered_is_covered() {
         let config = with(&config(40, samples), |picture| {
             (picture.filter, picture.background) = (filter, Background::Transparent)
         });
-        assert!(draw(text, &config).pixels().iter().all(|pixel| *pixel == [64, 128, 191, 255]), "{filter:?}");
+        assert!(
+            draw(text, &config).pixels().iter().all(|pixel| *pixel == [64, 128, 191, 255]),
+            "{filter:?}"
+        );
         let exposed = with(&config, |picture| picture.exposure = Some(Exposure::Stops(0.0)));
         assert!(draw(text, &exposed).pixels().iter().all(|pixel| pixel[3] == 255), "{filter:?}");
         let half = text.replace("v a -9 -9 0", "v a 0 -9 0").replace("v d -9 9 0", "v d 0 9 0");
@@ -144,8 +158,8 @@ fn covered_is_covered() {
         assert_eq!(u16::from(row[19]) + u16::from(row[20]), 255, "{filter:?}");
         // The colour of a partly covered pixel is still that of the face.
         assert!(
-            (19..40)
-                .all(|column| row[column as usize] == 0 || frame.pixel(column, 20)[..3] == [64, 128, 191])
+            (19..40).all(|column| row[column as usize] == 0
+                || frame.pixel(column, 20)[..3] == [64, 128, 191])
         );
     }
 }

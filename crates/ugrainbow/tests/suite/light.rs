@@ -10,7 +10,8 @@ use crate::common::{SQUARE, from_above, light, with};
 
 fn map(width: u32, height: u32, samples: u32) -> (String, Config) {
     let size = [width, height];
-    let config = with(&Config::default(), |picture| (picture.size, picture.samples) = (size, samples));
+    let config =
+        with(&Config::default(), |picture| (picture.size, picture.samples) = (size, samples));
     (from_above(), config)
 }
 
@@ -27,7 +28,10 @@ fn display(text: &str, config: &Config) -> (Vec<[u8; 4]>, Vec<String>) {
 fn assert_near(light: [f32; 3], expected: [f64; 3]) {
     for (ours, exact) in light.iter().zip(expected) {
         // Single precision.
-        assert!((f64::from(*ours) - exact).abs() < 3e-7 * exact.abs().max(1.0), "{light:?} for {expected:?}");
+        assert!(
+            (f64::from(*ours) - exact).abs() < 3e-7 * exact.abs().max(1.0),
+            "{light:?} for {expected:?}"
+        );
     }
 }
 
@@ -59,10 +63,16 @@ fn light_is_interpolated_in_xyz_and_lit() {
                 assert!((xyz[i] - expected).abs() < 1e-5, "{idx}: {xyz:?}");
             }
         }
-        assert!(pixels[15][0] < 0.0, "a colour outside the gamut has negative parts: {:?}", pixels[15]);
+        assert!(
+            pixels[15][0] < 0.0,
+            "a colour outside the gamut has negative parts: {:?}",
+            pixels[15]
+        );
     }
     // A coloured light, itself of the scale of displays: half red is srgb_decode(0.5) of it.
-    let text = format!("c_xyz w .950469 1 1.088822; c_rgb r 1 .5 0; l 2 r; {SQUARE} f (a b c d) w; {camera}");
+    let text = format!(
+        "c_xyz w .950469 1 1.088822; c_rgb r 1 .5 0; l 2 r; {SQUARE} f (a b c d) w; {camera}"
+    );
     for pixel in light(&text, &config) {
         for (ours, exact) in pixel.iter().zip([2.0, 2.0 * srgb_decode(0.5), 0.0]) {
             // White is given to six digits.
@@ -88,22 +98,29 @@ fn hues_and_light_stand_side_by_side() {
     both[..8].iter().for_each(|pixel| {
         // Between the points of the table of the transfer function.
         let exact = red.to_rgb().map(srgb_decode);
-        assert!(pixel.iter().zip(exact).all(|(ours, exact)| (f64::from(*ours) - exact).abs() < 1e-6));
+        assert!(
+            pixel.iter().zip(exact).all(|(ours, exact)| (f64::from(*ours) - exact).abs() < 1e-6)
+        );
     });
     let hot = ugphysics::xyz_to_linear_srgb([20.0, 10.0, 1.0]).map(|channel| 0.7 * channel);
     both[8..].iter().for_each(|pixel| assert_near(*pixel, hot));
 
     let corners = "v a -4 -4 0 red; v b 4 -4 0 hot; v c 4 4 0 hot; v d -4 4 0 red; f (a b c d);";
     let mixed = light(&format!("{colors} l .7; {corners} {camera}"), &config);
-    let red =
-        Hsv { hue: 20.0, saturation: 0.9, value: 0.8 }.to_rgb().map(|channel| 0.7 * srgb_decode(channel));
+    let red = Hsv { hue: 20.0, saturation: 0.9, value: 0.8 }
+        .to_rgb()
+        .map(|channel| 0.7 * srgb_decode(channel));
     for (idx, pixel) in mixed.iter().enumerate() {
         let part = (idx as f64 + 0.5) / 16.0;
         let expected: [f64; 3] = std::array::from_fn(|i| red[i] + part * (hot[i] - red[i]));
-        assert!(pixel.iter().zip(expected).all(|(a, b)| (f64::from(*a) - b).abs() < 1e-5), "{pixel:?}");
+        assert!(
+            pixel.iter().zip(expected).all(|(a, b)| (f64::from(*a) - b).abs() < 1e-5),
+            "{pixel:?}"
+        );
     }
     // Wires, too.
-    let wire = light(&format!("{colors} l .7; {SQUARE} w (a b) hot; w (c d) red; {camera}"), &config);
+    let wire =
+        light(&format!("{colors} l .7; {SQUARE} w (a b) hot; w (c d) red; {camera}"), &config);
     assert_eq!(wire.len(), 16);
 }
 
@@ -117,13 +134,21 @@ fn pixels_are_means_of_light_and_developed_after() {
     );
     let pixels = light(&text, &config);
     for (idx, expected) in [(7, 8.0), (8, 4.0), (9, 0.0)] {
-        assert!(pixels[idx].iter().all(|channel| (channel - expected).abs() < 1e-4), "{:?}", pixels[idx]);
+        assert!(
+            pixels[idx].iter().all(|channel| (channel - expected).abs() < 1e-4),
+            "{:?}",
+            pixels[idx]
+        );
     }
-    let at =
-        |stops| display(&text, &with(&config, |picture| picture.exposure = Some(Exposure::Stops(stops)))).0;
+    let at = |stops| {
+        display(&text, &with(&config, |picture| picture.exposure = Some(Exposure::Stops(stops)))).0
+    };
     assert_eq!([7, 8, 9].map(|idx| at(0.0)[idx]), [[255; 4], [255; 4], [0, 0, 0, 255]]);
     let half = (255.0 * srgb_encode(0.5)).round() as u8;
-    assert_eq!([7, 8, 9].map(|idx| at(-3.0)[idx]), [[255; 4], [half, half, half, 255], [0, 0, 0, 255]]);
+    assert_eq!(
+        [7, 8, 9].map(|idx| at(-3.0)[idx]),
+        [[255; 4], [half, half, half, 255], [0, 0, 0, 255]]
+    );
 }
 
 const GLARE: &str = "c_xyz hot 9 4 1; c_xyz green .2 3 .1; c blue 1.7 220 .8; c dim .3 40; l 1;
@@ -135,17 +160,20 @@ const GLARE: &str = "c_xyz hot 9 4 1; c_xyz green .2 3 .1; c blue 1.7 220 .8; c 
 #[test]
 fn a_picture_is_its_light_developed() {
     let (camera, mut config) = map(40, 30, 3);
-    let hues = GLARE.replace("c_xyz hot 9 4 1; c_xyz green .2 3 .1;", "c hot 5 10; c green 3 110 .7;");
+    let hues =
+        GLARE.replace("c_xyz hot 9 4 1; c_xyz green .2 3 .1;", "c hot 5 10; c green 3 110 .7;");
     for text in [format!("{GLARE} {camera}"), format!("{hues} {camera}")] {
         let light = light(&text, &config);
         assert!(light.iter().flatten().any(|channel| *channel > 2.0));
         for tone in Tone::ALL {
             for stops in [-4.0, -1.5, 0.0, 2.25] {
-                (config.picture.exposure, config.picture.tone) = (Some(Exposure::Stops(stops)), tone);
+                (config.picture.exposure, config.picture.tone) =
+                    (Some(Exposure::Stops(stops)), tone);
                 let quantizer = Quantizer::new();
                 let shown = |light: &[f32; 3]| {
-                    let [r, g, b] =
-                        Development { stops, tone }.apply(*light).map(|light| quantizer.level(light));
+                    let [r, g, b] = Development { stops, tone }
+                        .apply(*light)
+                        .map(|light| quantizer.level(light));
                     [r, g, b, 255]
                 };
                 let expected: Vec<[u8; 4]> = light.iter().map(shown).collect();
@@ -161,15 +189,20 @@ fn a_picture_is_its_light_developed() {
 fn automatic_exposure_can_be_repeated() {
     let (camera, config) = map(40, 30, 2);
     let text = format!("{GLARE} {camera}");
-    let (auto, notes) = display(&text, &with(&config, |picture| picture.exposure = Some(Exposure::Auto)));
+    let (auto, notes) =
+        display(&text, &with(&config, |picture| picture.exposure = Some(Exposure::Auto)));
     let note = notes.iter().find(|note| note.starts_with("exposure is")).unwrap();
     let stops: f64 = note.split(' ').nth(2).unwrap().parse().unwrap();
     assert!(stops < -1.0, "{note}");
-    let again = display(&text, &with(&config, |picture| picture.exposure = Some(Exposure::Stops(stops))));
+    let again =
+        display(&text, &with(&config, |picture| picture.exposure = Some(Exposure::Stops(stops))));
     assert_eq!(again.0, auto);
     let light = light(&text, &config);
-    let covered: Vec<f64> =
-        light.iter().map(|rgb| luminance(rgb.map(f64::from))).filter(|light| *light > 0.0).collect();
+    let covered: Vec<f64> = light
+        .iter()
+        .map(|rgb| luminance(rgb.map(f64::from)))
+        .filter(|light| *light > 0.0)
+        .collect();
     let white = covered.iter().filter(|light| **light * libm::exp2(stops) >= 1.01).count();
     assert!(white * 100 <= covered.len(), "{white} of {}", covered.len());
 }
@@ -199,19 +232,29 @@ fn what_a_format_has_no_place_for_is_refused() {
     #[track_caller]
     fn check(config: &Config, message: &str) {
         let (camera, _) = map(2, 2, 1);
-        let error = run(config, &Source::new("t.ug", format!("{SQUARE} f (a b c d); {camera}"))).unwrap_err();
+        let error = run(config, &Source::new("t.ug", format!("{SQUARE} f (a b c d); {camera}")))
+            .unwrap_err();
         assert!(error.is_usage());
         assert!(error.words().contains(message), "{error}");
     }
     let to = |format| with(&map(2, 2, 1).1, |picture| picture.output = Output::Color(format));
     for format in [Format::Exr, Format::Pfm, Format::Hdr] {
-        check(&with(&to(format), |picture| picture.exposure = Some(Exposure::Auto)), "leave out -ex and -tc");
+        check(
+            &with(&to(format), |picture| picture.exposure = Some(Exposure::Auto)),
+            "leave out -ex and -tc",
+        );
         check(&with(&to(format), |picture| picture.tone = Tone::Filmic), "leave out -ex and -tc");
     }
     for format in [Format::Pfm, Format::Hdr] {
-        check(&with(&to(format), |picture| picture.background = Background::Transparent), "write -dt exr");
+        check(
+            &with(&to(format), |picture| picture.background = Background::Transparent),
+            "write -dt exr",
+        );
     }
     for format in [Format::Png, Format::Pfm, Format::Png16] {
-        check(&with(&to(format), |picture| picture.channels = vec![Channel::Time]), "with -ch write -dt exr");
+        check(
+            &with(&to(format), |picture| picture.channels = vec![Channel::Time]),
+            "with -ch write -dt exr",
+        );
     }
 }

@@ -134,8 +134,11 @@ fn the_order_of_corners_of_a_face_does_not_matter() {
     let hole = "v e -1 -1 0; v g 1 1 0; v h -1 1 0; f (a b c d) (e g h); f (e g h);";
     for faces in ["f (a b c); f (a c d);", "f (a b c); f (a d c);", hole] {
         for edges in [EdgeKind::All, EdgeKind::Silhouette, EdgeKind::Creases { angle: 0.1 }] {
-            let [seen, hidden] =
-                lines(&format!("{corners} {faces} {}", camera([1.0, -7.0, 9.0])), edges, HiddenLines::Thin);
+            let [seen, hidden] = lines(
+                &format!("{corners} {faces} {}", camera([1.0, -7.0, 9.0])),
+                edges,
+                HiddenLines::Thin,
+            );
             assert_eq!([seen.len(), hidden.len()], [4, 0], "{faces} {edges:?}");
         }
     }

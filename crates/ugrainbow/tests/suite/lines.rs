@@ -38,7 +38,10 @@ fn a_wire_on_a_slanting_edge_has_its_full_width() {
                 for x in [3, 20, 33] {
                     let width = down(&frame, x);
                     // Rows of samples are a sixteenth of a pixel high.
-                    assert!((width - line_width).abs() < 0.07, "{width} of {line_width} at height {height}");
+                    assert!(
+                        (width - line_width).abs() < 0.07,
+                        "{width} of {line_width} at height {height}"
+                    );
                 }
             }
         }
@@ -61,16 +64,23 @@ fn cube() -> String {
 #[test]
 fn of_a_cube_the_edges_of_faces_turned_to_the_eye_are_seen() {
     let side = 200;
-    for eye in [DVec3::new(3.0, -4.0, 2.5), DVec3::new(-2.0, -3.0, -4.0), DVec3::new(0.4, 0.6, 5.0)] {
+    for eye in [DVec3::new(3.0, -4.0, 2.5), DVec3::new(-2.0, -3.0, -4.0), DVec3::new(0.4, 0.6, 5.0)]
+    {
         let center = DVec3::splat(0.5);
-        let text =
-            format!("{} cam -ep {} {} {} -vc .5 .5 .5 -ud .1 .2 1 -va 30 30;", cube(), eye.x, eye.y, eye.z);
+        let text = format!(
+            "{} cam -ep {} {} {} -vc .5 .5 .5 -ud .1 .2 1 -va 30 30;",
+            cube(),
+            eye.x,
+            eye.y,
+            eye.z
+        );
         let frame = draw(&text, &Config { wireframe: Some(ONLY_EDGES), ..config(side, 4) });
         let forward = (center - eye).normalize();
         let right = forward.cross(DVec3::new(0.1, 0.2, 1.0).normalize()).normalize();
         let up = right.cross(forward);
         let scale = 0.5 * f64::from(side) / libm::tan(15.0f64.to_radians());
-        let corner = |k: usize| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2 & 1) as f64);
+        let corner =
+            |k: usize| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2 & 1) as f64);
         let mut n_edges = 0;
         for (k, axis) in (0..8).flat_map(|k| (0..3).map(move |axis| (k, axis))) {
             let other = k | 1 << axis;

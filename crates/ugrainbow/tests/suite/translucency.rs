@@ -45,7 +45,10 @@ fn layers_are_blended_from_behind_in_linear_light() {
     // Half of red, and half of it shows green.
     check(of(red, 2.0, 0.5) + &of(green, 1.0, 0.0), [0.5, 0.5, 0.0]);
     // Red lets a quarter through; of that green shows four tenths, and blue the rest.
-    check(of(red, 2.0, 0.25) + &of(green, 1.0, 0.6) + &of(blue, 0.0, 0.0), [0.75, 0.25 * 0.4, 0.25 * 0.6]);
+    check(
+        of(red, 2.0, 0.25) + &of(green, 1.0, 0.6) + &of(blue, 0.0, 0.0),
+        [0.75, 0.25 * 0.4, 0.25 * 0.6],
+    );
     // Nothing behind but the background, which is black.
     check(of(red, 2.0, 0.25) + &of(green, 1.0, 0.6), [0.75, 0.1, 0.0]);
     // What is hidden stays hidden.
@@ -59,7 +62,8 @@ fn what_passes_shows_the_background() {
     let frame = draw(&panes, &with(&config(2, 1), |picture| picture.background = blue));
     assert_pixel(&frame, [1, 1], [0.5, 0.5 * 0.6, 0.5 * 0.4]);
     // On nothing the covered part is what does not pass, and colour is that of this part.
-    let frame = draw(&panes, &with(&config(2, 1), |picture| picture.background = Background::Transparent));
+    let frame =
+        draw(&panes, &with(&config(2, 1), |picture| picture.background = Background::Transparent));
     assert_eq!(frame.pixel(0, 0)[3], (255.0f64 * 0.8).round() as u8);
     assert_pixel(&frame, [0, 0], [0.5 / 0.8, 0.3 / 0.8, 0.0]);
 }
@@ -104,7 +108,10 @@ fn the_order_of_statements_makes_no_difference() {
     assert!(expected.pixels().iter().any(|pixel| *pixel != expected.pixel(0, 0)));
     for step in [3, 7, 11, 39] {
         // Prime to 40, so every triangle comes once.
-        assert!(draw(&text(&all, (0..40).map(|k| k * step % 40)), &config) == expected, "step {step}");
+        assert!(
+            draw(&text(&all, (0..40).map(|k| k * step % 40)), &config) == expected,
+            "step {step}"
+        );
     }
 }
 
@@ -161,11 +168,16 @@ fn all_clear_is_not_there_and_none_clear_is_opaque() {
     let all = triangles(30, 5);
     let config = config(50, 4);
     let with = |translucency: f64| {
-        let changed = |k: usize| if k.is_multiple_of(2) { translucency } else { all[k].translucency };
+        let changed =
+            |k: usize| if k.is_multiple_of(2) { translucency } else { all[k].translucency };
         let all: Vec<Triangle> = all
             .iter()
             .enumerate()
-            .map(|(k, &Triangle { corners, hue, .. })| Triangle { corners, hue, translucency: changed(k) })
+            .map(|(k, &Triangle { corners, hue, .. })| Triangle {
+                corners,
+                hue,
+                translucency: changed(k),
+            })
             .collect();
         draw(&text(&all, 0..30), &config)
     };
@@ -185,14 +197,16 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
     let text = "l 1; c glass 1 0 1 .5; c post 1 120;
                 v a -4 -4 0; v b -2 -4 0; v c 2 -4 0; v d 4 -4 0; v e -4 4 0; v f -2 4 0; v g 2 4 0; v h 4 4 0;
                 f (a b f e) post; f (b c g f) glass; f (c d h g) post;";
-    let frame = draw(text, &with(&config(8, 1), |picture| picture.background = Background::Transparent));
+    let frame =
+        draw(text, &with(&config(8, 1), |picture| picture.background = Background::Transparent));
     let alpha = |x: u32| frame.pixel(x, 4)[3];
     assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(alpha), [255, 255, 128, 128, 128, 128, 255, 255]);
     // Without a colour of its own the face has those of its corners, here transparent at the left
     // and opaque at the right.
     let text = "l 1; c clear 1 0 1 1; c red 1 0;
                 v a -4 -4 0 clear; v b 4 -4 0 red; v c 4 4 0 red; v d -4 4 0 clear; f (a b c d);";
-    let frame = draw(text, &with(&config(8, 1), |picture| picture.background = Background::Transparent));
+    let frame =
+        draw(text, &with(&config(8, 1), |picture| picture.background = Background::Transparent));
     for x in 0..8 {
         let expected = 255.0 * (f64::from(x) + 0.5) / 8.0;
         assert!((f64::from(frame.pixel(x, 3)[3]) - expected).abs() <= 1.0, "column {x}");
@@ -204,11 +218,13 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
 #[test]
 fn exact_pictures_blend_as_well() {
     let all = triangles(24, 9);
-    let text = text(&all, 0..24).replace("cam ", "") + "cam -ep 0 0 14 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
+    let text =
+        text(&all, 0..24).replace("cam ", "") + "cam -ep 0 0 14 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
     let scene = common::scene(&text);
     let scanned = config(60, 2);
     let exact = Config { exact: Some(ColorShift::default()), ..scanned.clone() };
-    let [one, other] = [scanned, exact].map(|config| render(&scene, &config).unwrap().into_frame().unwrap());
+    let [one, other] =
+        [scanned, exact].map(|config| render(&scene, &config).unwrap().into_frame().unwrap());
     let differs = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
     let pairs = one.pixels().iter().zip(other.pixels());
     let n_different = pairs.filter(|&pair| differs(pair)).count();
@@ -245,7 +261,8 @@ fn infinite_depths_do_not_fade() {
     let text = "l 1; c red 1 0; v a -4e155 -4e155 -2; v b 4e155 -4e155 2; v c 4e155 4e155 2; f (a b c) red;
                 cam -ep 0 0 1e155 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
     let cue = DepthCue { range: None, least: 0.2 };
-    let rendering = render(&common::scene(text), &Config { depth_cue: Some(cue), ..config(8, 1) }).unwrap();
+    let rendering =
+        render(&common::scene(text), &Config { depth_cue: Some(cue), ..config(8, 1) }).unwrap();
     assert!(
         !rendering.notes.iter().any(|note| matches!(note, Note::DepthCue { .. })),
         "{:?}",

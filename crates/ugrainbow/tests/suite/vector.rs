@@ -23,7 +23,8 @@ const FAR: &str = "v a -3 -3 0; v b 3 -3 0; v c 3 3 0; v d -3 3 0; f far (a b c 
 const NEAR: &str = "v e -1 -1 1; v f -1 1 1; v g 1 1 1; v h 1 -1 1; f near (e f g h) red;";
 
 /// Above them all; half of the light behind it passes. Its right half is over nothing.
-const PANE: &str = "c pane 1 0 1 .5; v p -1 -2 2; v q 7 -2 2; v r 7 2 2; v s -1 2 2; f pane (p q r s) pane;";
+const PANE: &str =
+    "c pane 1 0 1 .5; v p -1 -2 2; v q 7 -2 2; v r 7 2 2; v s -1 2 2; f pane (p q r s) pane;";
 
 /// Fill colour, and least and greatest x and y, of every area.
 fn areas(svg: &str) -> Vec<(String, [f64; 4])> {
@@ -44,8 +45,10 @@ fn areas(svg: &str) -> Vec<(String, [f64; 4])> {
 #[test]
 fn what_is_nearer_is_painted_later_and_what_is_hidden_not_at_all() {
     let hidden = "v i -2 -2 -1; v j 2 -2 -1; v k 2 2 -1; f hidden (i j k) green;";
-    let expected =
-        [("#00f".to_owned(), [10.0, 70.0, 10.0, 70.0]), ("#f00".to_owned(), [30.0, 50.0, 30.0, 50.0])];
+    let expected = [
+        ("#00f".to_owned(), [10.0, 70.0, 10.0, 70.0]),
+        ("#f00".to_owned(), [30.0, 50.0, 30.0, 50.0]),
+    ];
     for scene in [[NEAR, FAR, hidden], [hidden, FAR, NEAR], [FAR, hidden, NEAR]] {
         assert_eq!(areas(&svg(&format!("{COLORS}{}", scene.concat()))), expected);
     }
@@ -116,7 +119,8 @@ fn what_lies_between_seen_faces_and_is_hidden_is_left_out() {
 #[test]
 fn behind_a_pane_all_is_painted_once_more_in_linear_light() {
     let near = NEAR.replace("red", "green");
-    let square = |color: &str, left, right, top, bottom| (color.to_owned(), [left, right, top, bottom]);
+    let square =
+        |color: &str, left, right, top, bottom| (color.to_owned(), [left, right, top, bottom]);
     let expected = [
         square("#00f", 10.0, 70.0, 10.0, 70.0),
         square("#0f0", 30.0, 50.0, 30.0, 50.0),
@@ -130,10 +134,13 @@ fn behind_a_pane_all_is_painted_once_more_in_linear_light() {
     }
     // A pane before the pane, which lets a half through: one quarter of red shines through green.
     let second = PANE.replace("pane", "second").replace("v p", "v p2").replace("v q", "v q2");
-    let second = second.replace("v r", "v r2").replace("v s", "v s2").replace("(p q r s)", "(p2 q2 r2 s2)");
+    let second =
+        second.replace("v r", "v r2").replace("v s", "v s2").replace("(p q r s)", "(p2 q2 r2 s2)");
     let second = second.replace(" 2;", " 3;").replace("1 0 1 .5", "1 120 1 .5");
-    let colors: Vec<String> =
-        areas(&svg(&format!("{COLORS}{PANE}{second}"))).into_iter().map(|(color, _)| color).collect();
+    let colors: Vec<String> = areas(&svg(&format!("{COLORS}{PANE}{second}")))
+        .into_iter()
+        .map(|(color, _)| color)
+        .collect();
     // Of the pane behind nothing is seen that is not behind the other.
     assert_eq!(colors, ["#bc0000", "#89bc00"]);
 }
@@ -142,7 +149,8 @@ fn behind_a_pane_all_is_painted_once_more_in_linear_light() {
 fn lines_behind_panes_have_other_colours_there() {
     let wire = "c white 1; v t -3 0 1; v u 3 0 1; w wire (t u) white;";
     let text = svg(&format!("{COLORS}{PANE}{wire}"));
-    let lines: Vec<&str> = text.lines().filter(|line| line.contains("stroke-width=\"1.2\"")).collect();
+    let lines: Vec<&str> =
+        text.lines().filter(|line| line.contains("stroke-width=\"1.2\"")).collect();
     // From the left to the edge of the pane, and behind it: all of red, and half of green and blue.
     assert_eq!(lines.len(), 2, "{text}");
     assert!(lines[0].contains("stroke=\"#fff\"") && lines[0].contains("L30 40"), "{text}");
@@ -163,12 +171,16 @@ fn faces_of_one_colour_beside_each_other_are_one_area() {
 
 #[test]
 fn edges_of_faces_are_lines() {
-    let wireframe =
-        Some(ugrainbow::Wireframe { has_faces: false, color: None, ..ugrainbow::Wireframe::default() });
+    let wireframe = Some(ugrainbow::Wireframe {
+        has_faces: false,
+        color: None,
+        ..ugrainbow::Wireframe::default()
+    });
     let config = Config { wireframe, line_width: 2.0, ..Config::default() };
     let text = svg_with(&format!("{COLORS}{FAR}{NEAR}"), config);
     assert!(areas(&text).is_empty(), "{text}");
-    let lines = |color: &str| text.matches(&format!("stroke=\"{color}\" stroke-width=\"2\"")).count();
+    let lines =
+        |color: &str| text.matches(&format!("stroke=\"{color}\" stroke-width=\"2\"")).count();
     assert_eq!((lines("#00f"), lines("#f00")), (4, 4), "{text}");
     // The upper edge of the near face, with half the width at its ends.
     assert!(text.contains("M29 30L51 30") || text.contains("M51 30L29 30"), "{text}");

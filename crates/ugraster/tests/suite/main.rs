@@ -4,9 +4,9 @@ mod transparency;
 
 use fearless_simd::Level;
 use ugraster::{
-    BLOCK, Bounds, Center, Corner, CornerTable, DepthFade, Encoding, Keep, NoTriangles, PixelSamples,
-    PolygonLayer, PolygonList, Rasterizer, SampleGrid, SampleShading, Scanner, ScreenPoint, ShadedRun,
-    ShadedSample, TileShape, TriangleBlock,
+    BLOCK, Bounds, Center, Corner, CornerTable, DepthFade, Encoding, Keep, NoTriangles,
+    PixelSamples, PolygonLayer, PolygonList, Rasterizer, SampleGrid, SampleShading, Scanner,
+    ScreenPoint, ShadedRun, ShadedSample, TileShape, TriangleBlock,
 };
 use ugtesting::Random;
 
@@ -47,7 +47,11 @@ fn a_square_covers_its_samples() {
         for contour in [around.clone(), around.into_iter().rev().collect()] {
             for (y, row) in count(&[vec![contour]], 8, 8).into_iter().enumerate() {
                 for (x, n) in row.into_iter().enumerate() {
-                    assert_eq!(n, u32::from(columns.contains(&x) && rows.contains(&y)), "sample {x} {y}");
+                    assert_eq!(
+                        n,
+                        u32::from(columns.contains(&x) && rows.contains(&y)),
+                        "sample {x} {y}"
+                    );
                 }
             }
         }
@@ -70,19 +74,23 @@ fn faces_of_a_mesh_share_no_sample_and_leave_none_out() {
     let mut points = [[(0.0, 0.0); CELLS + 1]; CELLS + 1];
     for (j, row) in points.iter_mut().enumerate() {
         for (i, point) in row.iter_mut().enumerate() {
-            let mut jitter = |idx: usize| if idx == 0 || idx == CELLS { 0.0 } else { random.unit() - 0.5 };
+            let mut jitter =
+                |idx: usize| if idx == 0 || idx == CELLS { 0.0 } else { random.unit() - 0.5 };
             // Some points on sample centres, where ties are.
             let snap = |x: f64| if (i + j) % 3 == 0 { x.round() + 0.5 } else { x };
             let inside = |idx: usize, x: f64| if idx == 0 || idx == CELLS { x } else { snap(x) };
-            *point =
-                (inside(i, CELL * i as f64 + 1.5 * jitter(i)), inside(j, CELL * j as f64 + 1.5 * jitter(j)));
+            *point = (
+                inside(i, CELL * i as f64 + 1.5 * jitter(i)),
+                inside(j, CELL * j as f64 + 1.5 * jitter(j)),
+            );
         }
     }
     let mut polygons = Vec::new();
     for j in 0..CELLS {
         for i in 0..CELLS {
-            let [a, b, c, d] = [points[j][i], points[j][i + 1], points[j + 1][i + 1], points[j + 1][i]]
-                .map(|(x, y)| at(x, y));
+            let [a, b, c, d] =
+                [points[j][i], points[j][i + 1], points[j + 1][i + 1], points[j + 1][i]]
+                    .map(|(x, y)| at(x, y));
             let faces = match (i + j) % 3 {
                 0 => vec![vec![a, b, c], vec![c, d, a]],
                 1 => vec![vec![d, b, a], vec![b, d, c]],
@@ -152,7 +160,9 @@ impl CornerTable<1> for Triangles {
     }
 
     fn values(&self, _item: u32, corners: [u32; 3]) -> [[f64; 1]; 3] {
-        corners.map(|corner| self.0[corner as usize].values.map(|value| value / self.0[corner as usize].key))
+        corners.map(|corner| {
+            self.0[corner as usize].values.map(|value| value / self.0[corner as usize].key)
+        })
     }
 }
 
@@ -217,8 +227,9 @@ fn twice_area([a, b, c]: &[ScreenPoint; 3]) -> f64 {
 
 fn is_regular(points: &[ScreenPoint; 3], is_perspective: bool) -> bool {
     let [xs, ys, keys] = [points.map(|p| p.x), points.map(|p| p.y), points.map(|p| p.key)];
-    let ends =
-        |all: [f64; 3]| [all.into_iter().fold(f64::NAN, f64::min), all.into_iter().fold(f64::NAN, f64::max)];
+    let ends = |all: [f64; 3]| {
+        [all.into_iter().fold(f64::NAN, f64::min), all.into_iter().fold(f64::NAN, f64::max)]
+    };
     let is_finite = [xs, ys, keys].iter().flatten().all(|number| number.is_finite());
     let ([left, right], [top, bottom], [least, most]) = (ends(xs), ends(ys), ends(keys));
     let extent = (right - left).max(bottom - top);
@@ -240,11 +251,13 @@ fn triangles_are_drawn_like_polygons() {
         let (mut triangles, mut polygons) = (PolygonList::default(), PolygonList::default());
         let mut table = Vec::new();
         for item in 0..300 {
-            let middle = [60.0 * random.unit(), 50.0 * random.unit()].map(|place| place * f64::from(samples));
+            let middle = [60.0 * random.unit(), 50.0 * random.unit()]
+                .map(|place| place * f64::from(samples));
             let corners = [(); 3].map(|()| {
                 let [x, y] = middle.map(|place| place + size * (random.unit() - 0.5));
                 // Some on sample centres, where ties are.
-                let [x, y] = if item % 3 == 0 { [x.round() + 0.5, y.round() + 0.5] } else { [x, y] };
+                let [x, y] =
+                    if item % 3 == 0 { [x.round() + 0.5, y.round() + 0.5] } else { [x, y] };
                 let key = 0.1 + random.unit();
                 Corner { x, y, key, values: [key * random.unit()] }
             });
@@ -295,7 +308,10 @@ pub struct Grey;
 impl SampleShading<1> for Grey {
     fn shade(&self, [lights]: [&[f32]; 1], _: Encoding, run: &mut ShadedRun) {
         for (sample, &light) in lights.iter().enumerate() {
-            run.set(sample, ShadedSample { light: [light; 3], intensity: light, is_out_of_range: false });
+            run.set(
+                sample,
+                ShadedSample { light: [light; 3], intensity: light, is_out_of_range: false },
+            );
         }
     }
 }
@@ -325,7 +341,8 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &SampleGrid) -> Vec<f32> {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let (samples, all, pixel) = rasterizer.probe(&Grey, &|all: &PixelSamples<'_>| mean(all.sum), place);
+        let (samples, all, pixel) =
+            rasterizer.probe(&Grey, &|all: &PixelSamples<'_>| mean(all.sum), place);
         assert_eq!((mean(all.sum), all.center.opaque), *marked);
         assert_eq!(pixel, light);
         assert_eq!(samples.len() as f32, all.covered);

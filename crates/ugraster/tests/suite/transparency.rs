@@ -3,8 +3,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use ugraster::{
-    Area, Encoding, FragmentTarget, Keep, NoTriangles, PixelSamples, PolygonLayer, Rasterizer, SampleGrid,
-    SampleShading, Scanner, ShadedRun, ShapeTarget, TRANSPARENT_VALUES, TileShape, TransparentLayer,
+    Area, Encoding, FragmentTarget, Keep, NoTriangles, PixelSamples, PolygonLayer, Rasterizer,
+    SampleGrid, SampleShading, Scanner, ShadedRun, ShapeTarget, TRANSPARENT_VALUES, TileShape,
+    TransparentLayer,
 };
 
 use crate::Grey;
@@ -62,13 +63,18 @@ fn panes_are_drawn_about_once() {
         ([3001, 1], 1100, Keep::Centers),
     ] {
         let tiles = TileShape::Wide;
-        let grid = SampleGrid { width, height, samples: 1, is_perspective: false, fade: None, tiles };
+        let grid =
+            SampleGrid { width, height, samples: 1, is_perspective: false, fade: None, tiles };
         let panes = Panes { n, ..Panes::default() };
         let opaque = &PolygonLayer::<1, NoTriangles> { lists: &[], corners: &NoTriangles };
         let rasterizer = Rasterizer { grid: &grid, opaque, transparent: Some(&panes) };
         let pixel = |all: &PixelSamples<'_>| {
             let keys = || all.center.fragments.iter().map(|fragment| fragment.key);
-            (all.sum[0], keys().len() as u32, keys().zip(0..n).all(|(key, place)| key == place as f32))
+            (
+                all.sum[0],
+                keys().len() as u32,
+                keys().zip(0..n).all(|(key, place)| key == place as f32),
+            )
         };
         let (pixels, _) = rasterizer.paint(&Grey, keep, &pixel, &());
         let n_fragments = pixels.len() as u64 * u64::from(n);
@@ -79,7 +85,10 @@ fn panes_are_drawn_about_once() {
         let light = (0..n).fold(0.0, |behind, key| 0.5 * key as f32 + 0.5 * behind);
         for (found, n_kept, is_sorted) in pixels {
             assert!((found - light).abs() <= 1e-5 * light, "{n}: {found} {light}");
-            assert!(n_kept == if keep == Keep::Light { 0 } else { n } && is_sorted, "{n}: {n_kept}");
+            assert!(
+                n_kept == if keep == Keep::Light { 0 } else { n } && is_sorted,
+                "{n}: {n_kept}"
+            );
         }
     }
 }

@@ -12,7 +12,9 @@ impl Words for CameraError {
             Self::NoUp => "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1",
             Self::ViewAngle(_) => "{}; give -va more than 0 and less than 180",
             Self::Film => "{}; correct -fs and -fl of the `cam` statement, or give -va",
-            Self::FilmRectangle => "{}; give -ph of the `cam` statement as min x, min y, max x, max y",
+            Self::FilmRectangle => {
+                "{}; give -ph of the `cam` statement as min x, min y, max x, max y"
+            }
             Self::Clip(_) => "{}; give -cl of the `cam` statement as hither and a greater yon",
         };
         words.replacen("{}", &self.to_string(), 1)
@@ -26,7 +28,9 @@ impl Words for StageError {
             Self::ColorsAsSeen => format!("{self}: {}", remedies::SEEN_COLORS),
             Self::ColorsDeferred => format!("{self}: {}", remedies::DEFERRED_COLORS),
             Self::GeometryAtRest => format!("{self}: {}", remedies::GEOMETRY_AT_REST),
-            Self::NotWavelengths => format!("{self}: leave out -wi, or {}", remedies::WRITE_WAVELENGTHS),
+            Self::NotWavelengths => {
+                format!("{self}: leave out -wi, or {}", remedies::WRITE_WAVELENGTHS)
+            }
             Self::OtherEye { asked, .. } => format!(
                 "{self}: leave out -ep or -cam here, or {} (-ep {}) with the scene at rest",
                 remedies::EYE_POINT,
@@ -50,7 +54,9 @@ impl Words for Note {
                 format!("nothing that moves is in the picture at -ti {time}; it is with -ti {when}")
             }
             Self::OutOfView { when: None, .. } => {
-                format!("{self}: move the eye (-ep) or the view centre (-vc), widen -va, or try -in")
+                format!(
+                    "{self}: move the eye (-ep) or the view centre (-vc), widen -va, or try -in"
+                )
             }
         }
     }
@@ -74,6 +80,9 @@ impl Words for MotionError {
     }
 
     fn is_usage(&self) -> bool {
-        matches!(self, Self::Velocity(_) | Self::CameraVelocity(_) | Self::Camera(CameraError::NoUp))
+        matches!(
+            self,
+            Self::Velocity(_) | Self::CameraVelocity(_) | Self::Camera(CameraError::NoUp)
+        )
     }
 }

@@ -33,7 +33,14 @@ pub struct Bodies {
 impl Default for Bodies {
     /// One body, of all faces and wires whose motion is not stated.
     fn default() -> Self {
-        Self { rows: vec![Body { name: None, line: WorldLine::REST, statement: None, is_stated: false }] }
+        Self {
+            rows: vec![Body {
+                name: None,
+                line: WorldLine::REST,
+                statement: None,
+                is_stated: false,
+            }],
+        }
     }
 }
 
@@ -55,7 +62,9 @@ impl Bodies {
     /// reference point, or adds it. The search is linear.
     pub fn moving_with(&mut self, velocity: Velocity) -> BodyId {
         let line = WorldLine::inertial(InertialFrame::new(velocity));
-        let known = |&id: &BodyId| self[id].name.is_none() && self[id].is_stated && *self.motion(id) == line;
+        let known = |&id: &BodyId| {
+            self[id].name.is_none() && self[id].is_stated && *self.motion(id) == line
+        };
         match self.ids().find(known) {
             Some(id) => id,
             None => self.push(None, line),
@@ -84,7 +93,13 @@ impl Bodies {
     }
 
     /// Gives a body a name and a motion with a statement, whose world line is `line`.
-    pub fn set_statement(&mut self, id: BodyId, name: NameId, statement: StatedMotion, line: WorldLine) {
+    pub fn set_statement(
+        &mut self,
+        id: BodyId,
+        name: NameId,
+        statement: StatedMotion,
+        line: WorldLine,
+    ) {
         let statement = Some(statement);
         self.rows[id.index()] = Body { name: Some(name), line, statement, is_stated: true };
     }
@@ -120,8 +135,11 @@ impl Bodies {
     pub fn set_frame(&mut self, id: BodyId, frame: InertialFrame) {
         let body = &mut self.rows[id.index()];
         (body.line, body.is_stated) = (WorldLine::inertial(frame), true);
-        let statement =
-            |_| StatedMotion { at: frame.at, shift: frame.shift, ..StatedMotion::inertial(frame.velocity) };
+        let statement = |_| StatedMotion {
+            at: frame.at,
+            shift: frame.shift,
+            ..StatedMotion::inertial(frame.velocity)
+        };
         body.statement = body.statement.take().map(statement);
     }
 
@@ -137,7 +155,9 @@ impl Bodies {
     }
 
     /// The ids of all bodies, in order.
-    pub fn ids(&self) -> impl ExactSizeIterator<Item = BodyId> + DoubleEndedIterator + Clone + use<> {
+    pub fn ids(
+        &self,
+    ) -> impl ExactSizeIterator<Item = BodyId> + DoubleEndedIterator + Clone + use<> {
         (0..self.rows.len() as u32).map(BodyId)
     }
 

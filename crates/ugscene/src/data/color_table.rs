@@ -57,7 +57,11 @@ impl ColorTable {
         } else {
             ((time - before.0) / (next.0 - before.0)).clamp(0.0, 1.0)
         };
-        TablePlace { cycle, row: after as i64 - 1, parts: [(before.1, 1.0 - share), (next.1, share)] }
+        TablePlace {
+            cycle,
+            row: after as i64 - 1,
+            parts: [(before.1, 1.0 - share), (next.1, share)],
+        }
     }
 
     /// The same table for times that count from `zero`.

@@ -77,7 +77,10 @@ impl Head {
 
     /// The recorded hash and name.
     fn recorded_origin(&self) -> Option<&str> {
-        self.comments.iter().map(|comment| comment.trim()).find(|comment| origin_parts(comment).is_some())
+        self.comments
+            .iter()
+            .map(|comment| comment.trim())
+            .find(|comment| origin_parts(comment).is_some())
     }
 }
 

@@ -21,8 +21,8 @@ pub use ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 pub use motion::{Carrier, CurveKind, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use scene::{
-    Beam, Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
-    Shading, StatedSky, Tint, Vertex, Wire,
+    Beam, Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix,
+    Projection, Scene, Shading, StatedSky, Tint, Vertex, Wire,
 };
 pub use shape::{FaceShape, RoundShape};
 pub use stage::{

@@ -76,7 +76,8 @@ impl CurveKind {
     }];
 
     /// All options of a motion, for error messages.
-    pub const OPTIONS: &'static str = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
+    pub const OPTIONS: &'static str =
+        "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
 
     /// The options that state a path, of which a motion has one kind, for error messages.
     pub const PATHS: &'static str = "give `-vel` and `-acc`, or `-orbit`, or `-path`";

@@ -190,7 +190,8 @@ mod tests {
         check(names.add("a_2_3".to_owned(), &mut table), &table, "a_2_3_2");
         check(names.add("a_4".to_owned(), &mut table), &table, "a_4_2");
         assert_eq!(
-            ["a_5", "a_5", "a_04", "a_1", "a"].map(|name| names.fresh(name).unwrap_or(name.to_owned())),
+            ["a_5", "a_5", "a_04", "a_1", "a"]
+                .map(|name| names.fresh(name).unwrap_or(name.to_owned())),
             ["a_5", "a_5_2", "a_04", "a_1", "a_6"]
         );
     }

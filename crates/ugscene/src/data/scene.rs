@@ -239,7 +239,15 @@ impl Face {
     /// A polygon without name, colour and shading.
     pub fn polygon(contours: Range<u32>, body: BodyId) -> Self {
         let shape = FaceShape::Polygon;
-        Self { name: None, contours, color: None, shading: None, body, shape, row_as_read: u32::MAX }
+        Self {
+            name: None,
+            contours,
+            color: None,
+            shading: None,
+            body,
+            shape,
+            row_as_read: u32::MAX,
+        }
     }
 }
 
@@ -353,7 +361,9 @@ impl Beam {
         match *self {
             Self::Even => true,
             Self::Spot { axis, degrees: [angle, edge] } => {
-                has_direction(axis) && (0.0..=180.0).contains(&angle) && (0.0..=angle).contains(&edge)
+                has_direction(axis)
+                    && (0.0..=180.0).contains(&angle)
+                    && (0.0..=angle).contains(&edge)
             }
             Self::Area([u, v]) => u.is_finite() && v.is_finite() && has_direction(u.cross(v)),
         }
@@ -423,7 +433,8 @@ impl Scene {
     /// All faces, then all wires.
     pub fn drawn(&self) -> impl DoubleEndedIterator<Item = FaceOrWire> + Clone {
         let faces = self.faces.iter().map(|face| (&face.contours, face.color, face.body));
-        let all = faces.chain(self.wires.iter().map(|wire| (&wire.contours, wire.color, wire.body)));
+        let all =
+            faces.chain(self.wires.iter().map(|wire| (&wire.contours, wire.color, wire.body)));
         all.map(|(contours, color, body)| FaceOrWire { contours: contours.clone(), color, body })
     }
 
@@ -439,18 +450,26 @@ impl Scene {
     }
 
     /// The shape of a round face whose vertices are at these positions; `None` for a polygon.
-    pub fn round_shape(&self, face: &Face, position: impl Fn(VertexId) -> DVec3) -> Option<RoundShape> {
+    pub fn round_shape(
+        &self,
+        face: &Face,
+        position: impl Fn(VertexId) -> DVec3,
+    ) -> Option<RoundShape> {
         if !face.shape.is_round() {
             return None;
         }
-        let corners: Vec<DVec3> = self.face_corners(face).iter().map(|&corner| position(corner)).collect();
+        let corners: Vec<DVec3> =
+            self.face_corners(face).iter().map(|&corner| position(corner)).collect();
         RoundShape::from_corners(face.shape, &corners)
     }
 
     /// The shapes of all round faces in the scene, with their bodies.
     pub fn rounds(&self) -> impl Iterator<Item = (BodyId, RoundShape)> {
         self.faces.iter().filter_map(|face| {
-            Some((face.body, self.round_shape(face, |vertex| self.vertices[vertex.index()].position)?))
+            Some((
+                face.body,
+                self.round_shape(face, |vertex| self.vertices[vertex.index()].position)?,
+            ))
         })
     }
 
@@ -462,7 +481,9 @@ impl Scene {
     /// True if a face is round whose body accelerates, turns or runs on a circle. There, rays are
     /// curves, which programs follow to polygons only.
     pub fn has_rounds_on_world_lines(&self) -> bool {
-        self.faces.iter().any(|face| face.shape.is_round() && self.bodies.is_on_world_line(face.body))
+        self.faces
+            .iter()
+            .any(|face| face.shape.is_round() && self.bodies.is_on_world_line(face.body))
     }
 
     /// The parts of a colour that is a mixture where colours are spectra; else nothing.
@@ -489,7 +510,8 @@ impl Scene {
     pub fn drawn_texture_name(&self) -> Option<&str> {
         let is_empty = self.textures.is_empty() && self.emissions.is_empty();
         let faces = if is_empty { &[][..] } else { &self.faces };
-        let is_read = |color| self.texture_of(color).is_some_and(|texture| !texture.image.bytes.is_empty());
+        let is_read =
+            |color| self.texture_of(color).is_some_and(|texture| !texture.image.bytes.is_empty());
         let is_drawn = |&color: &ColorId| is_read(color) || self.emitted_by(color).is_some();
         let color = faces.iter().filter_map(|face| face.color).find(is_drawn)?;
         Some(self.names.get(self.colors[color.index()].name))
@@ -497,7 +519,8 @@ impl Scene {
 
     /// True if the colour of a face or wire changes with own time.
     pub fn has_changing_surfaces(&self) -> bool {
-        let changes = |color: Option<ColorId>| color.is_some_and(|color| self.table_of(color).is_some());
+        let changes =
+            |color: Option<ColorId>| color.is_some_and(|color| self.table_of(color).is_some());
         !self.color_tables.is_empty() && self.drawn().any(|drawn| changes(drawn.color))
     }
 

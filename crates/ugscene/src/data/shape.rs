@@ -80,16 +80,18 @@ impl RoundShape {
         let middle = |first: usize| Some(corners.get(first)?.midpoint(*corners.get(first + 2)?));
         let (origin, axes) = match shape {
             FaceShape::Polygon => return None,
-            FaceShape::Sphere => {
-                (corners.first()?.midpoint(*corners.get(3)?), [half(0, 3)?, half(1, 4)?, half(2, 5)?])
-            }
+            FaceShape::Sphere => (
+                corners.first()?.midpoint(*corners.get(3)?),
+                [half(0, 3)?, half(1, 4)?, half(2, 5)?],
+            ),
             FaceShape::Cylinder | FaceShape::Tube => {
                 (middle(0)?, [half(0, 2)?, half(1, 3)?, middle(4)? - middle(0)?])
             }
             FaceShape::Disc => {
                 let (a, b) = (half(0, 2)?, half(1, 3)?);
-                let normal =
-                    ugphysics::unit_or_zero(ugphysics::unit_or_zero(a).cross(ugphysics::unit_or_zero(b)));
+                let normal = ugphysics::unit_or_zero(
+                    ugphysics::unit_or_zero(a).cross(ugphysics::unit_or_zero(b)),
+                );
                 (middle(0)?, [a, b, ugphysics::length(a) * normal])
             }
         };
@@ -107,7 +109,9 @@ impl RoundShape {
         let rim = |z: f64| (0..4).map(move |at| DVec3::new(a[at], b[at], z));
         match self.shape {
             FaceShape::Polygon => Vec::new(),
-            FaceShape::Sphere => DVec3::AXES.into_iter().chain(DVec3::AXES.map(|axis| -axis)).collect(),
+            FaceShape::Sphere => {
+                DVec3::AXES.into_iter().chain(DVec3::AXES.map(|axis| -axis)).collect()
+            }
             FaceShape::Cylinder | FaceShape::Tube => rim(0.0).chain(rim(1.0)).collect(),
             FaceShape::Disc => rim(0.0).collect(),
         }
@@ -123,7 +127,8 @@ impl RoundShape {
     #[inline]
     pub fn normal(&self, unit: DVec3) -> DVec3 {
         let scale = self.stretch();
-        let [a, b, c] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis].map(|axis| axis / scale);
+        let [a, b, c] =
+            [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis].map(|axis| axis / scale);
         let volume = a.dot(b.cross(c));
         let normal = b.cross(c) * unit.x + c.cross(a) * unit.y + a.cross(b) * unit.z;
         ugphysics::unit_or_zero(if volume < 0.0 { -normal } else { normal })
@@ -134,7 +139,9 @@ impl RoundShape {
         let [a, b, c] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
         let across = DVec3::from_array([0, 1, 2].map(|at| libm::hypot(a[at], b[at])));
         let half = match self.shape {
-            FaceShape::Sphere => DVec3::from_array([0, 1, 2].map(|at| libm::hypot(across[at], c[at]))),
+            FaceShape::Sphere => {
+                DVec3::from_array([0, 1, 2].map(|at| libm::hypot(across[at], c[at])))
+            }
             _ => across,
         };
         match self.shape {
@@ -153,7 +160,8 @@ impl RoundShape {
         let axes = if self.shape == FaceShape::Sphere { &axes[..] } else { &axes[..2] };
         let longest = axes.iter().map(|axis| ugphysics::length(*axis)).fold(0.0, f64::max);
         // Gershgorin's bound of the greatest eigenvalue of the products of the axes.
-        let row = |a: &DVec3| axes.iter().map(|b| (*a / longest).dot(*b / longest).abs()).sum::<f64>();
+        let row =
+            |a: &DVec3| axes.iter().map(|b| (*a / longest).dot(*b / longest).abs()).sum::<f64>();
         longest * axes.iter().map(row).fold(0.0, f64::max).sqrt()
     }
 }

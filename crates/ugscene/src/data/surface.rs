@@ -55,14 +55,26 @@ impl SurfaceProperties {
     pub const NUMBERS: [SurfaceNumber; 6] = [
         SurfaceNumber { of: |s| &mut s.diffuse, range: 0.0..=f64::MAX, rule: PART },
         SurfaceNumber { of: |s| &mut s.specular, range: 0.0..=f64::MAX, rule: PART },
-        SurfaceNumber { of: |s| &mut s.transmitted, range: 0.0..=1.0, rule: "use a number from 0 to 1" },
+        SurfaceNumber {
+            of: |s| &mut s.transmitted,
+            range: 0.0..=1.0,
+            rule: "use a number from 0 to 1",
+        },
         SurfaceNumber {
             of: |s| &mut s.refraction,
             range: f64::MIN_POSITIVE..=f64::MAX,
             rule: "a refractive index is above 0",
         },
-        SurfaceNumber { of: |s| &mut s.exponent, range: 0.0..=f64::MAX, rule: "an exponent is 0 or more" },
-        SurfaceNumber { of: |s| &mut s.absorption, range: 0.0..=f64::MAX, rule: "absorption is 0 or more" },
+        SurfaceNumber {
+            of: |s| &mut s.exponent,
+            range: 0.0..=f64::MAX,
+            rule: "an exponent is 0 or more",
+        },
+        SurfaceNumber {
+            of: |s| &mut s.absorption,
+            range: 0.0..=f64::MAX,
+            rule: "absorption is 0 or more",
+        },
     ];
 
     /// The syntax of the statement, for error messages.
@@ -74,7 +86,8 @@ impl SurfaceProperties {
     /// The shortest list of numbers from which a statement gives these properties.
     pub fn numbers(&self) -> Vec<f64> {
         let (mut own, mut default) = (self.clone(), Self::default());
-        let values = Self::NUMBERS.map(|number| [*(number.of)(&mut own), *(number.of)(&mut default)]);
+        let values =
+            Self::NUMBERS.map(|number| [*(number.of)(&mut own), *(number.of)(&mut default)]);
         let n = values.iter().rposition(|[own, default]| own != default).map_or(0, |last| last + 1);
         values[..n.max(Self::N_REQUIRED)].iter().map(|[own, _]| *own).collect()
     }
@@ -83,7 +96,9 @@ impl SurfaceProperties {
     pub fn violated(&self) -> Option<&'static str> {
         let mut own = self.clone();
         let mut numbers = Self::NUMBERS.into_iter();
-        numbers.find(|number| !number.range.contains((number.of)(&mut own))).map(|number| number.rule)
+        numbers
+            .find(|number| !number.range.contains((number.of)(&mut own)))
+            .map(|number| number.rule)
     }
 }
 

@@ -41,7 +41,8 @@ pub(super) fn take_camera_velocity(
 /// motion is more than a velocity. If that body is at rest, those whose motion is not stated stay
 /// what they are.
 pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) -> BodyId {
-    let keeps: Vec<bool> = scene.bodies.ids().map(|id| scene.bodies.statement(id).is_some()).collect();
+    let keeps: Vec<bool> =
+        scene.bodies.ids().map(|id| scene.bodies.statement(id).is_some()).collect();
     let unstated = scene.bodies.unstated();
     let body = scene.bodies.push(None, WorldLine::inertial(InertialFrame::new(velocity)));
     let set = |slot: &mut BodyId| {

@@ -68,7 +68,12 @@ struct Recount {
 }
 
 impl Recount {
-    fn color(&mut self, scene: &mut Scene, color: Option<ColorId>, body: BodyId) -> Option<ColorId> {
+    fn color(
+        &mut self,
+        scene: &mut Scene,
+        color: Option<ColorId>,
+        body: BodyId,
+    ) -> Option<ColorId> {
         let id = color?;
         let zero = self.times[body.index()];
         if zero == 0.0 {

@@ -191,10 +191,12 @@ impl PlacedBodies {
         let mut motions = motions(scene, velocity, of_camera, options.geometry)?;
         // Bodies on world lines are fitted at rest.
         let fitted = |body: BodyId| {
-            let motion = (!scene.bodies.is_on_world_line(body)).then(|| motions[body.index()].clone());
+            let motion =
+                (!scene.bodies.is_on_world_line(body)).then(|| motions[body.index()].clone());
             motion.into_iter().collect()
         };
-        let default_camera = DefaultCamera::new(scene, camera, size, fitted).map_err(MotionError::Camera)?;
+        let default_camera =
+            DefaultCamera::new(scene, camera, size, fitted).map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
         let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
@@ -215,9 +217,11 @@ impl PlacedBodies {
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera, of_camera).map_err(MotionError::Camera)?;
         turn_camera(scene, eye, &observer);
-        let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } = *options;
+        let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } =
+            *options;
         if has_motion || options.geometry != ShownEffects::default() {
-            let seen = SeenGeometry { eye, time, camera_velocity: of_camera, contraction, flight_time };
+            let seen =
+                SeenGeometry { eye, time, camera_velocity: of_camera, contraction, flight_time };
             scene.stage.geometry = GeometryStage::AsSeen(seen);
         }
         Ok(Self { eye, default_camera, motions, bodies, shifts })
@@ -229,7 +233,8 @@ impl PlacedBodies {
         let vertices = scene.vertices.par_iter().zip(&self.bodies);
         vertices
             .map(|(vertex, &body)| {
-                self.motions[body.index()].turned(vertex.position - self.eye) + self.shifts[body.index()]
+                self.motions[body.index()].turned(vertex.position - self.eye)
+                    + self.shifts[body.index()]
             })
             .collect()
     }
@@ -246,11 +251,13 @@ impl PlacedBodies {
         }
         if scene.bodies.has_world_lines() {
             let own_time = |point: &ShownPoint| motion(point).world_line().map(|_| point.own_time);
-            scene.own_times = points.iter().map(|point| own_time(point).unwrap_or(f64::NAN)).collect();
+            scene.own_times =
+                points.iter().map(|point| own_time(point).unwrap_or(f64::NAN)).collect();
         }
         let mut first = None;
         for (row, (vertex, point)) in scene.vertices.iter_mut().zip(points).enumerate() {
-            let stays = motion(point).is_at_rest() && self.shifts[point.body.index()] == DVec3::ZERO;
+            let stays =
+                motion(point).is_at_rest() && self.shifts[point.body.index()] == DVec3::ZERO;
             if row >= n_placed || !stays {
                 vertex.position = point.seen + self.eye;
             }
@@ -333,7 +340,8 @@ pub fn moving_camera(
     let observer = Observer::take(&mut scene, options, camera.eye)?;
     let eye = eye(&scene, camera.eye);
     camera.check_up().map_err(MotionError::Camera)?;
-    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity).map_err(MotionError::Camera)?;
+    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity)
+        .map_err(MotionError::Camera)?;
     turn_camera(&mut scene, eye, &observer);
     Ok(Some((scene.cameras.swap_remove(row), observer.velocity)))
 }

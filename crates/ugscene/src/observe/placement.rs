@@ -36,7 +36,8 @@ impl<'o> Placement<'o> {
             None => options.in_place,
         };
         // This reads every vertex.
-        let own = if is_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; scene.bodies.len()] };
+        let own =
+            if is_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; scene.bodies.len()] };
         // A part keeps the place of the body that carries all others that it is part of.
         let root = |body: BodyId| scene.bodies.carriers(body).last().unwrap_or(body);
         let centers = scene.bodies.ids().map(|body| own[root(body).index()]).collect();
@@ -72,7 +73,11 @@ impl<'o> Placement<'o> {
     /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
     ///
     /// `motions`: of each body. `frames`: from [`Placement::frames`].
-    pub(super) fn shifts(&self, motions: &[RelativeMotion], frames: &[InertialFrame]) -> Vec<DVec3> {
+    pub(super) fn shifts(
+        &self,
+        motions: &[RelativeMotion],
+        frames: &[InertialFrame],
+    ) -> Vec<DVec3> {
         let shift = |(motion, frame): (&RelativeMotion, &InertialFrame)| {
             if motion.world_line().is_some() {
                 return DVec3::ZERO;
@@ -84,7 +89,8 @@ impl<'o> Placement<'o> {
         let mut shifts: Vec<DVec3> = motions.iter().zip(frames).map(shift).collect();
         // Unused vertices are part of the first body. They get the offset of a body of the same
         // motion.
-        let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
+        let same_motion =
+            (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
         if let Some(row) = same_motion {
             shifts[0] = shifts[row];
         }
@@ -199,8 +205,10 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
     }
     let used = scene.bodies.ids().filter(|body| is_used[body.index()]);
     // Vertices of bodies on world lines stay where they are.
-    let (on_lines, used): (Vec<_>, Vec<_>) = used.partition(|&body| scene.bodies.is_on_world_line(body));
-    let shifts: Vec<(BodyId, DVec3)> = used.into_iter().map(|body| (body, shift_of(body))).collect();
+    let (on_lines, used): (Vec<_>, Vec<_>) =
+        used.partition(|&body| scene.bodies.is_on_world_line(body));
+    let shifts: Vec<(BodyId, DVec3)> =
+        used.into_iter().map(|body| (body, shift_of(body))).collect();
     let Some(&(_, first)) = shifts.first() else { return };
     if on_lines.is_empty() && shifts.iter().all(|&(_, shift)| shift == first) {
         lights_everything.into_iter().for_each(|position| *position += first);
@@ -231,7 +239,9 @@ pub(super) fn turn_bodies(scene: &mut Scene, bodies: &[BodyId]) {
         }
     }
     for light in &mut scene.lights {
-        let Some((at, turn)) = light.motion.body().and_then(|body| turns[body.index()]) else { continue };
+        let Some((at, turn)) = light.motion.body().and_then(|body| turns[body.index()]) else {
+            continue;
+        };
         match &mut light.kind {
             LightKind::Ambient => {}
             LightKind::Directional(toward) => *toward = turn * *toward,

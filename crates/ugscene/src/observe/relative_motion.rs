@@ -34,7 +34,12 @@ impl RelativeMotion {
         camera: Velocity,
         geometry: ShownEffects,
     ) -> RelativeMotion {
-        RelativeMotion { frame: super::rest_frames::frame(velocity, camera), in_scene, geometry, line: None }
+        RelativeMotion {
+            frame: super::rest_frames::frame(velocity, camera),
+            in_scene,
+            geometry,
+            line: None,
+        }
     }
 
     /// The motion of a body on a world line, in the frame of the camera with the event of the eye
@@ -115,7 +120,9 @@ impl RelativeMotion {
         match &self.line {
             None if self.is_at_rest() => Ok((rest, -rest.length())),
             None => Ok((self.seen(RestPosition(rest)).0, -self.boosted_rest(rest).length())),
-            Some(line) => line.light(rest, Event::ORIGIN).map(|light| (light.event.x, light.own_time)),
+            Some(line) => {
+                line.light(rest, Event::ORIGIN).map(|light| (light.event.x, light.own_time))
+            }
         }
     }
 
@@ -170,7 +177,8 @@ impl RelativeMotion {
         }
         let (normal, flight) = self.seen_part(space.normal);
         let places: Vec<DVec3> = corners.iter().map(|&corner| self.boosted_rest(corner)).collect();
-        let toward = places.iter().map(|place| place.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();
+        let toward =
+            places.iter().map(|place| place.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();
         let way = |place: DVec3| if flight > 0.0 { place.dot(toward) } else { place.length() };
         let bounds = places.iter().map(|&place| place.dot(normal) - flight * way(place));
         let bound = bounds.fold(f64::MIN, f64::max);

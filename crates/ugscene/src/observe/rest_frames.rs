@@ -7,7 +7,8 @@ use ugphysics::{Event, Lorentz, RestFrame, Velocity, WorldLine};
 
 use super::eye::world_line;
 use crate::{
-    BodyId, FaceOrWire, RelativeMotion, Scene, ShownEffects, axes_from_scene, camera_velocity, split_vertices,
+    BodyId, FaceOrWire, RelativeMotion, Scene, ShownEffects, axes_from_scene, camera_velocity,
+    split_vertices,
 };
 
 /// The motion of each body of a scene as seen, and its rest frame, relative to the camera.

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use ugphysics::{Event, Velocity};
 
 use crate::{
-    BodyId, Face, RestFrames, Scene, SeenPosition, Vertex, VertexId, seen_event, seen_normal, vertex_bodies,
+    BodyId, Face, RestFrames, Scene, SeenPosition, Vertex, VertexId, seen_event, seen_normal,
+    vertex_bodies,
 };
 
 /// The points of bodies that are seen at the vertices of a scene, as columns.
@@ -66,7 +67,12 @@ impl SeenVertices {
     }
 
     /// The rest normal of a face on the side that is seen from `eye`.
-    pub fn seen_normal(&self, scene: &Scene, face: &Face, (eye, frames): (DVec3, &RestFrames)) -> DVec3 {
+    pub fn seen_normal(
+        &self,
+        scene: &Scene,
+        face: &Face,
+        (eye, frames): (DVec3, &RestFrames),
+    ) -> DVec3 {
         let outline = scene.contours.get(face.contours.start);
         let first = outline[0].index();
         let facing = |own_time| {

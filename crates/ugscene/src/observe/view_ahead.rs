@@ -38,7 +38,8 @@ pub(super) fn look_ahead(
     let half = half_width_of(camera)?;
     let seen = |aside: DVec3| aberrate(forward + half * aside, velocity);
     let seen_forward = seen(DVec3::ZERO);
-    let angle = |side: DVec3| libm::atan2(seen_forward.cross(side).length(), seen_forward.dot(side));
+    let angle =
+        |side: DVec3| libm::atan2(seen_forward.cross(side).length(), seen_forward.dot(side));
     let half_angle = angle(seen(right)).max(angle(seen(-right)));
     let view_angle = 2.0 * half_angle.to_degrees();
     if view_angle >= 180.0 {

@@ -28,7 +28,8 @@ pub(super) fn place(
     let stated_eye = eye_event(eye, options.time, observer.velocity);
     let eye_shift = stated_eye - placement.eye_event();
     let frame = Lorentz::boost(observer.velocity).inverse();
-    let roots: Vec<BodyId> = scene.bodies.stated_by_name().filter(|&body| is_root(scene, body)).collect();
+    let roots: Vec<BodyId> =
+        scene.bodies.stated_by_name().filter(|&body| is_root(scene, body)).collect();
     for body in roots {
         let line = scene.bodies.motion(body);
         // What rides on an inertial body is placed as that is.
@@ -52,8 +53,11 @@ pub(super) fn place(
         }
     }
     // Carriers first, whatever the order of the text.
-    let mut parts: Vec<(usize, BodyId)> =
-        scene.bodies.stated_by_name().map(|body| (scene.bodies.carriers(body).count(), body)).collect();
+    let mut parts: Vec<(usize, BodyId)> = scene
+        .bodies
+        .stated_by_name()
+        .map(|body| (scene.bodies.carriers(body).count(), body))
+        .collect();
     parts.sort_unstable();
     for (_, body) in parts.into_iter().filter(|&(n_carriers, _)| n_carriers > 1) {
         if let Some(motion) = scene.bodies.statement(body).cloned()
@@ -80,8 +84,9 @@ pub(super) fn check_rounding(
     placement: &Placement<'_>,
 ) -> Result<(), MotionError> {
     let &Placement { options, observer, eye, .. } = placement;
-    let error =
-        f64::EPSILON * observer.velocity.gamma() * eye_event(eye, options.time, observer.velocity).t.abs();
+    let error = f64::EPSILON
+        * observer.velocity.gamma()
+        * eye_event(eye, options.time, observer.velocity).t.abs();
     let mut sizes = vec![0.0_f64; scene.bodies.len()];
     for (vertex, body) in scene.vertices.iter().zip(bodies) {
         let at = scene.bodies.statement(*body).map_or(DVec3::ZERO, |motion| motion.at);
@@ -106,7 +111,8 @@ pub(super) fn release_parts_of_inertial_bodies(scene: &mut Scene) -> Result<(), 
         scene.bodies.stated_by_name().filter(|&body| scene.bodies.is_on_world_line(body)).collect();
     for body in bodies {
         if let Some(motion) = scene.bodies.statement(body).cloned()
-            && let Some(frame) = motion.body().and_then(|on| scene.bodies.motion(on).inertial_frame())
+            && let Some(frame) =
+                motion.body().and_then(|on| scene.bodies.motion(on).inertial_frame())
         {
             let on = Some(Carrier::Frame(*frame));
             restate(scene, body, StatedMotion { on, ..motion }, &WorldLine::REST)?;

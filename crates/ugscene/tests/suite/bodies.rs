@@ -24,7 +24,8 @@ fn shared_vertices_are_copied_once_for_each_body() {
 
 #[test]
 fn one_body_is_left_alone() {
-    let before = parse("v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <0.5 0 0>; f (c b a) <0.5 0 0>;");
+    let before =
+        parse("v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <0.5 0 0>; f (c b a) <0.5 0 0>;");
     let mut after = before.clone();
     separate_bodies(&mut after);
     assert_eq!(ugparse::write(&before), ugparse::write(&after));

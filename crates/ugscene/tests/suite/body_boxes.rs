@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use ugscene::{
-    BodyBoxes, CameraOptions, MotionOptions, Note, PlacedBodies, RestPosition, Scene, TimesInView, View,
+    BodyBoxes, CameraOptions, MotionOptions, Note, PlacedBodies, RestPosition, Scene, TimesInView,
+    View,
 };
 use ugtesting::Random;
 
@@ -33,15 +34,21 @@ fn times_in_view_are_those_of_a_point_that_passes() {
     let seen_at = |x: f64, beta: f64| x / beta + libm::hypot(9.0, x);
     let half = 10f64.to_radians();
     let end = 9.0 * libm::tan(half - libm::asin(0.05 * libm::sin(half)));
-    for (beta, time) in [(0.5, 0.0), (0.9, -40.0), (0.99, 30.0), (0.9999, 9.0), (0.01, 2000.0), (-0.9, 5.0)] {
-        let found = boxes.times_in_view(&moving(beta * DVec3::X, time), &camera, SIZE).unwrap().unwrap();
+    for (beta, time) in
+        [(0.5, 0.0), (0.9, -40.0), (0.99, 30.0), (0.9999, 9.0), (0.01, 2000.0), (-0.9, 5.0)]
+    {
+        let found =
+            boxes.times_in_view(&moving(beta * DVec3::X, time), &camera, SIZE).unwrap().unwrap();
         let ends = [seen_at(-end, beta), seen_at(end, beta)];
         let TimesInView { first, last, best } = found;
         let tolerance = 1e-4 * (ends[1] - ends[0]).abs();
         let [first, last] = [first.unwrap(), last.unwrap()];
         assert!((first - ends[0].min(ends[1])).abs() < tolerance, "{beta}: {found:?} {ends:?}");
         assert!((last - ends[0].max(ends[1])).abs() < tolerance, "{beta}: {found:?} {ends:?}");
-        assert!(first < best && best < last && (best - 9.0).abs() < 0.2 * (last - first), "{found:?}");
+        assert!(
+            first < best && best < last && (best - 9.0).abs() < 0.2 * (last - first),
+            "{found:?}"
+        );
     }
 }
 
@@ -54,7 +61,8 @@ fn what_is_behind_the_eye_or_at_rest_is_never_in_view() {
         assert_eq!(boxes.times_in_view(&moving(beta, 0.0), &camera, SIZE).unwrap(), None);
     }
     // It leaves by the back of the eye, and stays in view.
-    let found = boxes.times_in_view(&moving(DVec3::new(0.0, -0.5, 0.03), 0.0), &camera, SIZE).unwrap();
+    let found =
+        boxes.times_in_view(&moving(DVec3::new(0.0, -0.5, 0.03), 0.0), &camera, SIZE).unwrap();
     let found = found.unwrap();
     assert!(found.first.is_none_or(|first| first > 0.0) && found.last.is_none(), "{found:?}");
     // A body at rest has no time at which it would be elsewhere.
@@ -67,8 +75,9 @@ fn what_is_behind_the_eye_or_at_rest_is_never_in_view() {
 
 #[test]
 fn times_are_rounded_inward() {
-    let times =
-        |first: Option<f64>, last: Option<f64>, best: f64| TimesInView { first, last, best }.to_string();
+    let times = |first: Option<f64>, last: Option<f64>, best: f64| {
+        TimesInView { first, last, best }.to_string()
+    };
     assert_eq!(times(Some(1.2345), Some(9.8765), 5.554), "from 1.24 to 9.87, best at 5.55");
     assert_eq!(times(Some(-1234.5), Some(1234.5), 0.1), "from -1234 to 1234, best at 0");
     assert_eq!(times(Some(3.33333), None, 4.0), "from 3.34 on, best at 4");
@@ -99,7 +108,8 @@ fn vector(random: &mut Random) -> DVec3 {
 /// An eye, and a camera there.
 fn random_camera(random: &mut Random) -> (DVec3, CameraOptions) {
     let eye = 12.0 * vector(random);
-    let (center, view_angle) = (Some(eye + vector(random)), Some((random.between(5.0, 60.0), None)));
+    let (center, view_angle) =
+        (Some(eye + vector(random)), Some((random.between(5.0, 60.0), None)));
     (eye, CameraOptions { eye: Some(eye), center, view_angle, ..CameraOptions::default() })
 }
 
@@ -124,7 +134,8 @@ fn nothing_is_seen_of_what_is_out_of_view() {
         }
         n_out += 1;
         let mut moved = scene.clone();
-        let placed = PlacedBodies::move_to_camera_frame(&mut moved, &motion, &camera, SIZE).unwrap();
+        let placed =
+            PlacedBodies::move_to_camera_frame(&mut moved, &motion, &camera, SIZE).unwrap();
         let rest = placed.rest_positions(&moved);
         let view = View::new(&moved, &CameraOptions { eye: None, ..camera }, SIZE).unwrap();
         for face in &moved.faces {
@@ -133,8 +144,10 @@ fn nothing_is_seen_of_what_is_out_of_view() {
             for _ in 0..40 {
                 let weights: Vec<f64> = corners.iter().map(|_| random.between(0.0, 1.0)).collect();
                 let sum: f64 = weights.iter().sum();
-                let parts =
-                    corners.iter().zip(weights).map(|(corner, weight)| rest[corner.index()] * (weight / sum));
+                let parts = corners
+                    .iter()
+                    .zip(weights)
+                    .map(|(corner, weight)| rest[corner.index()] * (weight / sum));
                 let point = view.place(motion.seen(RestPosition(parts.sum())).0);
                 let inside = point.z > 0.0
                     && (0.0..400.0).contains(&(point.x / point.z))
@@ -185,7 +198,8 @@ fn the_middle_is_that_of_what_moves() {
     let boxes = BodyBoxes::new(&scene);
     for time in [-20.0, 0.0, 3.0, 50.0] {
         let motion = MotionOptions { time, ..MotionOptions::default() };
-        let center = boxes.seen(&motion, &CameraOptions::default(), SIZE).unwrap().center().unwrap();
+        let center =
+            boxes.seen(&motion, &CameraOptions::default(), SIZE).unwrap().center().unwrap();
         // x − 5/γ = .8 (t − |p|), with the eye as the fixed point of the contraction.
         assert!((center.y - 9.0).abs() < 2e-3 && center.z.abs() < 2e-3, "{center}");
         // Rounded to a millionth of the distance; the triangle is a thousandth wide.

@@ -19,8 +19,18 @@ fn colours_are_counted_once_in_their_order() {
         (0..n_colors).for_each(|color| writeln!(text, "c c{color} .5 {color};").unwrap());
         let scene = parse(&text);
         let positions: Vec<_> = scene.vertices.iter().map(|vertex| vertex.position).collect();
-        let ColorMix::Mixed(parts) = &vertex_mixes(&scene, &positions)[0] else { panic!("{n_colors}") };
-        assert!(parts.iter().map(|part| part.0).eq((0..n_colors).map(|row| Some(ColorId::from_index(row)))));
-        assert!(parts.iter().all(|part| (part.1 * n_colors as f64 - 1.0).abs() < 1e-9), "{n_colors}");
+        let ColorMix::Mixed(parts) = &vertex_mixes(&scene, &positions)[0] else {
+            panic!("{n_colors}")
+        };
+        assert!(
+            parts
+                .iter()
+                .map(|part| part.0)
+                .eq((0..n_colors).map(|row| Some(ColorId::from_index(row))))
+        );
+        assert!(
+            parts.iter().all(|part| (part.1 * n_colors as f64 - 1.0).abs() < 1e-9),
+            "{n_colors}"
+        );
     }
 }

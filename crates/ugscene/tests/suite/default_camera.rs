@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ugpipe::Words;
 use ugscene::{
-    CameraOptions, CameraPoint, DefaultCamera, MotionOptions, PlacedBodies, RelativeMotion, RestPosition,
-    Scene, ShownEffects, View,
+    CameraOptions, CameraPoint, DefaultCamera, MotionOptions, PlacedBodies, RelativeMotion,
+    RestPosition, Scene, ShownEffects, View,
 };
 
 use super::parse;
@@ -14,13 +14,15 @@ fn camera(text: &str, options: &CameraOptions, velocities: &[DVec3]) -> Option<D
     let motion = |beta: &DVec3| {
         RelativeMotion::new(ugphysics::Velocity::from_beta(*beta).unwrap(), ShownEffects::default())
     };
-    DefaultCamera::new(&scene, options, [4, 3], |_| velocities.iter().map(motion).collect()).unwrap()
+    DefaultCamera::new(&scene, options, [4, 3], |_| velocities.iter().map(motion).collect())
+        .unwrap()
 }
 
 fn square(center: DVec3, half: f64) -> String {
     let corner = |x: f64, y: f64| center + half * DVec3::new(x, y, 0.0);
     let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-    let statements = corners.iter().enumerate().map(|(i, p)| format!("v v{i} {} {} {};", p.x, p.y, p.z));
+    let statements =
+        corners.iter().enumerate().map(|(i, p)| format!("v v{i} {} {} {};", p.x, p.y, p.z));
     statements.collect::<String>() + "f (v0 v1 v2 v3);"
 }
 
@@ -28,9 +30,11 @@ fn square(center: DVec3, half: f64) -> String {
 /// overflows.
 #[test]
 fn the_largest_scenes_have_a_camera() {
-    let scene = "v a 0 -1.7e308 1.7e308; v b -1.7e308 1e308 0; v c 1.7e308 1.7e308 1.7e308; f (a b c);";
+    let scene =
+        "v a 0 -1.7e308 1.7e308; v b -1.7e308 1e308 0; v c 1.7e308 1.7e308 1.7e308; f (a b c);";
     for velocities in [&[][..], &[0.9 * DVec3::Y]] {
-        let DefaultCamera { eye, center, .. } = camera(scene, &CameraOptions::default(), velocities).unwrap();
+        let DefaultCamera { eye, center, .. } =
+            camera(scene, &CameraOptions::default(), velocities).unwrap();
         assert!(ugscene::view_distance(eye, center).is_ok(), "{eye} {center}");
     }
 }
@@ -54,15 +58,17 @@ const ENDS: [[f64; 2]; 2] = [[0.1, 0.9], [1.0 / 6.0, 5.0 / 6.0]];
 
 /// Everything is within a tenth and nine tenths of the width, and in two thirds of the height.
 fn is_within(parts: [[f64; 2]; 2], tolerance: f64) -> bool {
-    let is_inside =
-        |([low, high], end): ([f64; 2], [f64; 2])| low > end[0] - tolerance && high < end[1] + tolerance;
+    let is_inside = |([low, high], end): ([f64; 2], [f64; 2])| {
+        low > end[0] - tolerance && high < end[1] + tolerance
+    };
     parts.into_iter().zip(ENDS).all(is_inside)
 }
 
 /// It reaches from one of these ends to the other in one direction.
 fn fills(parts: [[f64; 2]; 2], tolerance: f64) -> bool {
-    let reaches =
-        |([low, high], end): ([f64; 2], [f64; 2])| low < end[0] + tolerance && high > end[1] - tolerance;
+    let reaches = |([low, high], end): ([f64; 2], [f64; 2])| {
+        low < end[0] + tolerance && high > end[1] - tolerance
+    };
     parts.into_iter().zip(ENDS).any(reaches)
 }
 
@@ -70,8 +76,9 @@ fn fills(parts: [[f64; 2]; 2], tolerance: f64) -> bool {
 fn long_box(half: DVec3, center: DVec3) -> String {
     let mut text = String::new();
     for at in 0..27 {
-        let p =
-            center + half * DVec3::new(f64::from(at % 3), f64::from(at / 3 % 3), f64::from(at / 9)) - half;
+        let p = center
+            + half * DVec3::new(f64::from(at % 3), f64::from(at / 3 % 3), f64::from(at / 9))
+            - half;
         text += &format!("v v{at} {:?} {:?} {:?};", p.x, p.y, p.z);
     }
     let names: Vec<String> = (0..27).map(|at| format!("v{at}")).collect();
@@ -93,18 +100,25 @@ fn what_is_seen_fills_the_picture() {
     for (half, center) in BOXES {
         for angle in [20.0, 60.0, 110.0] {
             for up in [None, Some(DVec3::Y)] {
-                let options =
-                    CameraOptions { view_angle: Some((angle, None)), up, ..CameraOptions::default() };
+                let options = CameraOptions {
+                    view_angle: Some((angle, None)),
+                    up,
+                    ..CameraOptions::default()
+                };
                 let scene = parse(&long_box(half, center));
                 let view = View::new(&scene, &options, [400, 300]).unwrap();
-                let seen: Vec<DVec3> = scene.vertices.iter().map(|v| v.position - view.eye).collect();
+                let seen: Vec<DVec3> =
+                    scene.vertices.iter().map(|v| v.position - view.eye).collect();
                 // The camera is rounded to a thousandth of the distance.
                 let tolerance = 4e-3 / libm::tan(angle.to_radians() / 2.0);
                 let parts = seen_parts(&scene, &view, &seen);
                 assert!(is_within(parts, tolerance), "{half} {angle}: {parts:?}");
                 // With a wide angle, what extends along the view is seen from the least distance.
                 let is_long = half != DVec3::splat(half.x);
-                assert!(angle > 20.0 && is_long || fills(parts, tolerance), "{half} {angle}: {parts:?}");
+                assert!(
+                    angle > 20.0 && is_long || fills(parts, tolerance),
+                    "{half} {angle}: {parts:?}"
+                );
                 n_cases += 1;
             }
         }
@@ -126,7 +140,8 @@ fn a_body_in_motion_is_fitted_as_it_is_seen() {
                 };
                 let camera = CameraOptions::default();
                 let placed =
-                    PlacedBodies::move_to_camera_frame(&mut scene, &options, &camera, [400, 300]).unwrap();
+                    PlacedBodies::move_to_camera_frame(&mut scene, &options, &camera, [400, 300])
+                        .unwrap();
                 let view = View::new(&scene, &camera, [400, 300]).unwrap();
                 let bodies = placed.bodies.iter().map(|body| &placed.motions[body.index()]);
                 let rest = placed.rest_positions(&scene);
@@ -161,9 +176,15 @@ fn what_is_given_holds() {
     assert_eq!(camera(&text, &aside, &[]).unwrap().center, DVec3::new(0.1, 2.0, 0.3));
     // With y up, the front is +z, as in most mesh formats.
     let found = camera(&text, &CameraOptions { up: Some(DVec3::Y), ..options() }, &[]).unwrap();
-    assert!(found.eye.z > found.eye.x && found.eye.x > found.eye.y && found.eye.y > 0.0, "{found:?}");
+    assert!(
+        found.eye.z > found.eye.x && found.eye.x > found.eye.y && found.eye.y > 0.0,
+        "{found:?}"
+    );
     // A vertex that nothing uses is not part of the picture.
-    assert_eq!(camera(&format!("{text} v far 1e9 0 0;"), &options(), &[]), camera(&text, &options(), &[]));
+    assert_eq!(
+        camera(&format!("{text} v far 1e9 0 0;"), &options(), &[]),
+        camera(&text, &options(), &[])
+    );
 }
 
 #[test]
@@ -173,7 +194,8 @@ fn nothing_moves_straight_at_the_eye() {
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         for velocity in [0.9 * axis, -0.9 * axis] {
             let moving = camera(&text, &CameraOptions::default(), &[velocity]).unwrap();
-            let [one, other] = [at_rest, moving].map(|found| (found.eye - found.center).normalize());
+            let [one, other] =
+                [at_rest, moving].map(|found| (found.eye - found.center).normalize());
             assert!(one.dot(other) > 0.999_99, "{moving:?}");
         }
     }
@@ -181,13 +203,15 @@ fn nothing_moves_straight_at_the_eye() {
     let other = camera(&text, &CameraOptions::default(), &[0.5 * toward]).unwrap();
     assert!(other.eye.dot(toward) < 0.0 && other.eye.z > 0.0, "{other:?}");
     let other =
-        camera(&text, &CameraOptions::default(), &[0.5 * toward, 0.5 * other.eye.normalize()]).unwrap();
+        camera(&text, &CameraOptions::default(), &[0.5 * toward, 0.5 * other.eye.normalize()])
+            .unwrap();
     assert!(other.eye.normalize().dot(toward).abs() < 0.766, "{other:?}");
 }
 
 #[test]
 fn the_note_has_options() {
-    let found = camera(&square(DVec3::new(1.0, 2.0, 3.0), 1.0), &CameraOptions::default(), &[]).unwrap();
+    let found =
+        camera(&square(DVec3::new(1.0, 2.0, 3.0), 1.0), &CameraOptions::default(), &[]).unwrap();
     assert_eq!(
         ugscene::Note::DefaultCamera(found).words(),
         "no camera in the scene: seen as with -ep 3.688 -1.674 4.566 -vc 1.009 1.897 2.78 -va 40"

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Lorentz, Velocity, WorldLine};
 use ugscene::{
-    GeometryStage, RestFrames, RestPosition, SeenGeometry, SeenPosition, ShownEffects, rest_positions,
+    GeometryStage, RestFrames, RestPosition, SeenGeometry, SeenPosition, ShownEffects,
+    rest_positions,
 };
 
 use super::parse;
@@ -19,9 +20,13 @@ fn seen_normals_are_at_right_angles_to_seen_tangents() {
         let seen = |p: DVec3| geometry.seen(RestPosition(p), v).0;
         let h = 1e-5;
         let along = |d: DVec3| (seen(rest + h * d) - seen(rest - h * d)) / (2.0 * h);
-        let found = geometry.seen_normal(RestPosition(normal), SeenPosition(seen(rest)), v).normalize();
+        let found =
+            geometry.seen_normal(RestPosition(normal), SeenPosition(seen(rest)), v).normalize();
         // The errors of central differences are about h² = 1e-10.
-        assert!(found.dot(along(one)).abs() < 1e-8 && found.dot(along(other)).abs() < 1e-8, "{geometry:?}");
+        assert!(
+            found.dot(along(one)).abs() < 1e-8 && found.dot(along(other)).abs() < 1e-8,
+            "{geometry:?}"
+        );
         assert!(found.dot(along(normal)) > 0.0, "{geometry:?}: on the other side");
     }
 }
@@ -41,7 +46,10 @@ fn rest_inverts_seen() {
             for p in [DVec3::new(3.0, 4.0, -1.0), DVec3::new(-2.0, 0.1, 7.0), DVec3::ZERO] {
                 let RestPosition(back) = geometry.rest(geometry.seen(RestPosition(p), v), v);
                 // γ² = 50 costs two digits of sixteen.
-                assert!((back - p).length() <= 1e-13 * p.length(), "{geometry:?} {beta} {p}: {back}");
+                assert!(
+                    (back - p).length() <= 1e-13 * p.length(),
+                    "{geometry:?} {beta} {p}: {back}"
+                );
             }
         }
     }
@@ -58,7 +66,8 @@ fn rest_positions_are_in_the_axes_of_the_scene() {
     let camera = Velocity::from_beta(DVec3::new(0.6, -0.3, 0.5)).unwrap();
     let betas = [DVec3::ZERO, DVec3::new(0.0, 0.7, -0.2)];
     for (face, beta) in betas.into_iter().enumerate() {
-        let to_camera = Lorentz::boost(Velocity::from_beta(beta).unwrap()).then(Lorentz::boost(-camera));
+        let to_camera =
+            Lorentz::boost(Velocity::from_beta(beta).unwrap()).then(Lorentz::boost(-camera));
         let beta = to_camera.velocity_of_frame().unwrap().beta();
         let motion = WorldLine::inertial(InertialFrame::new(Velocity::from_beta(beta).unwrap()));
         scene.faces[face].body = scene.bodies.push(None, motion);

@@ -45,7 +45,8 @@ fn is_closed(scene: &Scene) -> bool {
         for (at, &from) in corners.iter().enumerate() {
             let to = corners[(at + 1) % corners.len()];
             let [from, to] = [from, to].map(|place| (place + 0.0).to_array().map(f64::to_bits));
-            *edges.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+            *edges.entry([from.min(to), from.max(to)]).or_default() +=
+                if from < to { 1 } else { -1 };
         }
     }
     edges.values().all(|&sum| sum == 0)

@@ -20,9 +20,13 @@ fn matrices_are_those_of_the_view() {
         assert!((camera[2] - z).abs() < 1e-12 * z.abs() && camera[3] == 1.0, "{camera:?} {z}");
         let [right, up] = [0, 1].map(|axis| device[axis] / device[3]);
         let expected = [2.0 * x / z / 40.0 - 1.0, 1.0 - 2.0 * y / z / 30.0];
-        assert!((right - expected[0]).abs() < 1e-12 && (up - expected[1]).abs() < 1e-12, "{right} {up}");
+        assert!(
+            (right - expected[0]).abs() < 1e-12 && (up - expected[1]).abs() < 1e-12,
+            "{right} {up}"
+        );
     }
-    let flat = View::new(&parse("v a 1 2 3; cam -og;"), &CameraOptions::default(), [40, 30]).unwrap();
+    let flat =
+        View::new(&parse("v a 1 2 3; cam -og;"), &CameraOptions::default(), [40, 30]).unwrap();
     assert_eq!(flat.matrices(), None);
 }
 
@@ -50,7 +54,11 @@ fn half_spaces_enclose_the_picture() {
             let w = if view.is_perspective { z } else { 1.0 };
             let is_in_picture = (0.0..=40.0).contains(&(x / w)) && (0.0..=30.0).contains(&(y / w));
             let is_drawn = is_in_picture && view.slab.near <= z && z <= view.slab.far;
-            assert_eq!(spaces.iter().all(|s| s.normal.dot(p) + s.offset >= 0.0), is_drawn, "{options} {p}");
+            assert_eq!(
+                spaces.iter().all(|s| s.normal.dot(p) + s.offset >= 0.0),
+                is_drawn,
+                "{options} {p}"
+            );
             inside += u32::from(is_drawn);
         }
     }

@@ -131,6 +131,10 @@ fn a_scene_without_a_camera_fills_the_view() {
         };
         let ([left, right], [top, bottom]) = (extent(0), extent(1));
         assert!(left > 0.0 && right < 300.0 && top > 0.0 && bottom < 200.0, "{beta}: {places:?}");
-        assert!(right - left > 100.0 || bottom - top > 90.0, "{beta}: {places:?} {:?}", scene.camera());
+        assert!(
+            right - left > 100.0 || bottom - top > 90.0,
+            "{beta}: {places:?} {:?}",
+            scene.camera()
+        );
     }
 }

@@ -55,7 +55,8 @@ impl Clock {
     fn delay(&mut self) -> u16 {
         let now = (self.n_frames * self.ticks_per_frame).round();
         self.n_frames += 1.0;
-        ((self.n_frames * self.ticks_per_frame).round() - now).clamp(1.0, f64::from(u16::MAX)) as u16
+        ((self.n_frames * self.ticks_per_frame).round() - now).clamp(1.0, f64::from(u16::MAX))
+            as u16
     }
 }
 
@@ -165,7 +166,8 @@ impl<'w> Gif<'w> {
     /// Writing fails, or the film is larger than a GIF can be.
     pub fn new(out: &'w mut dyn Write, shape: FilmShape) -> io::Result<Self> {
         let side = |length: u32| {
-            u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
+            u16::try_from(length)
+                .map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
         };
         let (width, height) = (side(shape.size[0])?, side(shape.size[1])?);
         let mut encoder = GifEncoder::new(out, width, height, &[]).map_err(io::Error::other)?;
@@ -191,7 +193,8 @@ impl<'w> Gif<'w> {
             let same = drawn.iter_mut().zip(cut(before.pixels(), width, part));
             same.filter(|(now, before)| *now == before).for_each(|(now, _)| now[3] = 0);
         }
-        let color = |&[red, green, blue, alpha]: &[u8; 4]| (alpha >= 128).then_some([red, green, blue]);
+        let color =
+            |&[red, green, blue, alpha]: &[u8; 4]| (alpha >= 128).then_some([red, green, blue]);
         let colors: Vec<_> = drawn.iter().filter_map(color).collect();
         let n_transparent = usize::from(colors.len() < drawn.len());
         let palette = Palette::new(colors, 256 - n_transparent);
@@ -211,7 +214,11 @@ impl<'w> Gif<'w> {
             width,
             height,
             delay: self.clock.delay(),
-            dispose: if frame.is_opaque() { DisposalMethod::Keep } else { DisposalMethod::Background },
+            dispose: if frame.is_opaque() {
+                DisposalMethod::Keep
+            } else {
+                DisposalMethod::Background
+            },
             transparent,
             palette: Some(colors.into_flattened()),
             buffer: buffer.into(),

@@ -143,7 +143,9 @@ impl<'w> Stream<'w> {
             }
             FilmKind::Ppm => Self::Ppm(out),
             FilmKind::Html => Self::Html(Lesson::new(out, captions, shape)?),
-            FilmKind::Apng | FilmKind::Mp4 | FilmKind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
+            FilmKind::Apng | FilmKind::Mp4 | FilmKind::Webm => {
+                Self::Apng(AnimatedPng::new(out, shape)?)
+            }
         })
     }
 
@@ -201,8 +203,11 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
             let [r, g, b] = [red, green, blue].map(|part| f64::from(part) / 255.0);
             let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
             // With ½ added, truncation rounds positive numbers to the nearest.
-            let levels =
-                [16.5 + 219.0 * y, 128.5 + 224.0 * (b - y) / 1.8556, 128.5 + 224.0 * (r - y) / 1.5748];
+            let levels = [
+                16.5 + 219.0 * y,
+                128.5 + 224.0 * (b - y) / 1.8556,
+                128.5 + 224.0 * (r - y) / 1.5748,
+            ];
             last = ([red, green, blue], levels.map(|level| level as u8));
         }
         [luma[row], blue_plane[row], red_plane[row]] = last.1;
@@ -221,7 +226,12 @@ impl Ffmpeg {
     ///
     /// # Errors
     /// There is no ffmpeg.
-    pub fn new(kind: FilmKind, shape: FilmShape, is_opaque: bool, path: &Path) -> Result<Self, Failure> {
+    pub fn new(
+        kind: FilmKind,
+        shape: FilmShape,
+        is_opaque: bool,
+        path: &Path,
+    ) -> Result<Self, Failure> {
         let [width, height] = shape.size;
         let [count, seconds] = fraction(shape.rate);
         let codec: &[&str] = match kind {
@@ -235,7 +245,15 @@ impl Ffmpeg {
         command
             .args(["-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"])
             .args(["-pix_fmt", pixels])
-            .args(["-s", &format!("{width}x{height}"), "-r", &format!("{count}/{seconds}"), "-i", "-", "-an"])
+            .args([
+                "-s",
+                &format!("{width}x{height}"),
+                "-r",
+                &format!("{count}/{seconds}"),
+                "-i",
+                "-",
+                "-an",
+            ])
             .args(["-vf", &format!("scale=out_color_matrix=bt709,format={planes}")])
             .args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"])
             .args(["-fflags", "+bitexact", "-flags:v", "+bitexact"])
@@ -261,7 +279,8 @@ impl Ffmpeg {
     /// # Errors
     /// ffmpeg has ended, for the reason it gives.
     pub fn push(&mut self, frame: &Frame) -> Result<(), Failure> {
-        let bytes = if self.is_opaque { rgb(frame) } else { frame.pixels().as_flattened().to_vec() };
+        let bytes =
+            if self.is_opaque { rgb(frame) } else { frame.pixels().as_flattened().to_vec() };
         let written = self.input.as_mut().map(|input| input.write_all(&bytes));
         match written {
             Some(Ok(())) => Ok(()),
@@ -285,13 +304,19 @@ impl Ffmpeg {
         drop(self.input.take());
         let mut text = String::new();
         // What it printed may be no text; its status says enough then.
-        let _ = self.program.child_mut().stderr.take().map(|mut stream| stream.read_to_string(&mut text));
+        let _ = self
+            .program
+            .child_mut()
+            .stderr
+            .take()
+            .map(|mut stream| stream.read_to_string(&mut text));
         let status = self
             .program
             .child_mut()
             .wait()
             .map_or_else(|error| error.to_string(), |status| status.to_string());
-        let line = text.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("no message");
+        let line =
+            text.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("no message");
         Failure::failed(format!("ffmpeg failed with {status}: {line}"))
     }
 }

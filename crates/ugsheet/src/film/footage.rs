@@ -72,7 +72,11 @@ impl Footage {
     ///
     /// # Errors
     /// The file is none, or is broken.
-    pub fn in_file(path: Option<&Path>, input: Input, limits: PictureLimits) -> Result<Self, Failure> {
+    pub fn in_file(
+        path: Option<&Path>,
+        input: Input,
+        limits: PictureLimits,
+    ) -> Result<Self, Failure> {
         let label = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
         let Input { name, text } = input;
         let source = if is_gif(&text) {
@@ -103,7 +107,11 @@ impl Footage {
     ///
     /// # Errors
     /// There are no frames, one is missing, cannot be read, or has another size than the first.
-    pub fn in_files(path: &Path, context: &Context, limits: PictureLimits) -> Result<Self, Failure> {
+    pub fn in_files(
+        path: &Path,
+        context: &Context,
+        limits: PictureLimits,
+    ) -> Result<Self, Failure> {
         let name = path.display().to_string();
         let names = if path.is_dir() { None } else { FrameNames::new(&name) };
         let label = names.as_ref().map_or_else(|| file_name(path), FrameNames::name);
@@ -161,7 +169,9 @@ impl Footage {
                 decoder.set_limits(limits)?;
                 decoder.into_frames()
             }
-            Source::Apng(file) => PngDecoder::with_limits(Cursor::new(file), limits)?.apng()?.into_frames(),
+            Source::Apng(file) => {
+                PngDecoder::with_limits(Cursor::new(file), limits)?.apng()?.into_frames()
+            }
             Source::Picture(_) | Source::Files(_) => Frames::new(Box::new(std::iter::empty())),
         })
     }
@@ -172,7 +182,8 @@ impl Footage {
     /// The file is broken.
     pub fn frames(&self) -> Result<FootageFrames<'_>, Failure> {
         let picture = |path: Option<&Path>, file: &[u8]| {
-            let (frame, metadata) = read_png(file, &self.limits).map_err(|error| self.broken(path, error))?;
+            let (frame, metadata) =
+                read_png(file, &self.limits).map_err(|error| self.broken(path, error))?;
             self.check_size([frame.width(), frame.height()], path)?;
             Ok((frame, metadata))
         };
@@ -202,8 +213,9 @@ impl Footage {
             return Ok(());
         }
         let ([width, height], [columns, rows]) = (size, self.size);
-        let why =
-            format!("{width} x {height} pixels, the frames before {columns} x {rows}: draw all with one -sz");
+        let why = format!(
+            "{width} x {height} pixels, the frames before {columns} x {rows}: draw all with one -sz"
+        );
         Err(self.broken(path, why))
     }
 
@@ -215,8 +227,9 @@ impl Footage {
     fn undecoded(&self, n_before: u32, error: &ImageError) -> Failure {
         if let ImageError::Limits(_) = error {
             let [width, height] = self.size.map(u64::from);
-            let remedy =
-                CommonArgs::memory_remedy(Some(self.limits.bytes.max(16 * width * height).saturating_mul(2)));
+            let remedy = CommonArgs::memory_remedy(Some(
+                self.limits.bytes.max(16 * width * height).saturating_mul(2),
+            ));
             return self.broken(None, format!("its frames exceed the limit of memory{remedy}"));
         }
         self.broken(None, format!("it is broken after {n_before} frames, write it again: {error}"))
@@ -235,20 +248,25 @@ fn frame_paths(path: &Path, names: Option<&FrameNames>) -> io::Result<Vec<PathBu
     let folder = folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let is_one = |path: &PathBuf| {
         let name = file_name(path);
-        let is_own = |names: &FrameNames| names.number(&name).is_some_and(|n| names.path(n).ends_with(&name));
+        let is_own = |names: &FrameNames| {
+            names.number(&name).is_some_and(|n| names.path(n).ends_with(&name))
+        };
         let is_png = || name.ends_with(".png") && !name.starts_with('.');
         names.map_or_else(is_png, is_own) && path.is_file()
     };
-    let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
+    let mut paths =
+        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
     paths.retain(is_one);
     // A longer number is a greater one.
     paths.sort_by_cached_key(|path| (file_name(path).len(), file_name(path)));
     let Some(first_path) = paths.first() else {
-        let expected = first.map_or_else(|| "frame_0001.png".to_owned(), |first| first.display().to_string());
+        let expected =
+            first.map_or_else(|| "frame_0001.png".to_owned(), |first| first.display().to_string());
         return Err(io::Error::other(format!("There are no frames, such as {expected}")));
     };
-    let before =
-        |path: &Path| file_name(path).trim_end_matches(".png").trim_end_matches(char::is_numeric).len();
+    let before = |path: &Path| {
+        file_name(path).trim_end_matches(".png").trim_end_matches(char::is_numeric).len()
+    };
     let is_other = |path: &PathBuf| {
         file_name(path).get(..before(path)) != file_name(first_path).get(..before(first_path))
     };
@@ -264,11 +282,15 @@ fn frame_paths(path: &Path, names: Option<&FrameNames>) -> io::Result<Vec<PathBu
         };
     };
     let first = names.number(&file_name(first_path)).unwrap_or(1);
-    match (first..).zip(&paths).find(|(number, path)| !path.ends_with(file_name(&names.path(*number)))) {
+    match (first..)
+        .zip(&paths)
+        .find(|(number, path)| !path.ends_with(file_name(&names.path(*number))))
+    {
         None => Ok(paths),
-        Some((number, _)) => {
-            Err(io::Error::other(format!("Frame {} is missing: draw it first", names.path(number).display())))
-        }
+        Some((number, _)) => Err(io::Error::other(format!(
+            "Frame {} is missing: draw it first",
+            names.path(number).display()
+        ))),
     }
 }
 
@@ -299,8 +321,10 @@ mod tests {
     fn read(file: Vec<u8>) -> Result<Vec<Frame>, Failure> {
         let limits = PictureLimits { bytes: 1 << 24, ..PictureLimits::default() };
         let film = Footage::in_file(None, Input { name: "film".to_owned(), text: file }, limits)?;
-        let frames =
-            film.frames()?.map(|frame| frame.map(|(frame, _)| frame)).collect::<Result<Vec<_>, _>>()?;
+        let frames = film
+            .frames()?
+            .map(|frame| frame.map(|(frame, _)| frame))
+            .collect::<Result<Vec<_>, _>>()?;
         assert_eq!(frames.len() as u32, film.n_frames);
         assert!(frames.iter().all(|frame| [frame.width(), frame.height()] == film.size));
         Ok(frames)

@@ -38,7 +38,8 @@ impl<'f> Joined<'f> {
         for film in self.films.iter().filter(|film| film.n_frames < self.shape.n_frames) {
             let (name, count, all) = (&film.name, film.n_frames, self.shape.n_frames);
             let held = if count == 1 { "its only frame" } else { "its last frame" };
-            context.note(&format!("`{name}` has {count} of {all} frames: {held} is held to the end"));
+            context
+                .note(&format!("`{name}` has {count} of {all} frames: {held} is held to the end"));
         }
     }
 
@@ -52,7 +53,8 @@ impl<'f> Joined<'f> {
         steps: &Steps<'_>,
         mut consume: impl FnMut(u32, &Frame, &Metadata) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let mut readers = self.films.iter().map(|film| film.frames()).collect::<Result<Vec<_>, _>>()?;
+        let mut readers =
+            self.films.iter().map(|film| film.frames()).collect::<Result<Vec<_>, _>>()?;
         let mut pictures = self.sheet.pictures().to_vec();
         let mut shown: Vec<Frame> = vec![Frame::opaque(1, 1); readers.len()];
         steps.count("joining", self.shape.n_frames.into());
@@ -74,7 +76,8 @@ impl<'f> Joined<'f> {
 
 /// The frames a second of films whose files state them.
 fn common_rate(films: &[Footage]) -> Result<f64, Failure> {
-    let mut rated = films.iter().filter(|film| film.n_frames > 1).filter_map(|film| Some((film, film.rate?)));
+    let mut rated =
+        films.iter().filter(|film| film.n_frames > 1).filter_map(|film| Some((film, film.rate?)));
     let Some((first, rate)) = rated.next() else { return Ok(DEFAULT_RATE) };
     for (film, other) in rated {
         // Times of GIF are rounded to hundredths of a second.

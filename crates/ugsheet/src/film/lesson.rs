@@ -32,7 +32,11 @@ impl<'w> Lesson<'w> {
     ///
     /// # Errors
     /// Writing fails.
-    pub fn new(out: &'w mut dyn Write, captions: Vec<Caption>, shape: FilmShape) -> io::Result<Self> {
+    pub fn new(
+        out: &'w mut dyn Write,
+        captions: Vec<Caption>,
+        shape: FilmShape,
+    ) -> io::Result<Self> {
         let (head, tail) = TEMPLATE.split_once("@PICTURES@").unwrap_or((TEMPLATE, ""));
         out.write_all(head.as_bytes())?;
         let tail = tail
@@ -46,9 +50,15 @@ impl<'w> Lesson<'w> {
     /// # Errors
     /// Writing fails.
     pub fn push(&mut self, frame: &Frame) -> io::Result<()> {
-        let png = STANDARD.encode(Format::Png.encode_with(frame, &Metadata::default(), Compression::Small));
-        let (values, line) =
-            self.captions.next().map_or_else(Default::default, |of| (escaped(&of.values), escaped(&of.line)));
+        let png = STANDARD.encode(Format::Png.encode_with(
+            frame,
+            &Metadata::default(),
+            Compression::Small,
+        ));
+        let (values, line) = self
+            .captions
+            .next()
+            .map_or_else(Default::default, |of| (escaped(&of.values), escaped(&of.line)));
         writeln!(
             self.out,
             "<img hidden alt=\"{values}\" title=\"{line}\" src=\"data:image/png;base64,{png}\">"

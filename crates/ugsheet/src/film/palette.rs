@@ -40,24 +40,32 @@ impl Palette {
         let all = 0..counted.len();
         let mut groups = vec![Group::new(&mut counted, all)];
         while groups.len() < most {
-            let widest = (0..groups.len()).max_by(|&a, &b| groups[a].gain.total_cmp(&groups[b].gain));
+            let widest =
+                (0..groups.len()).max_by(|&a, &b| groups[a].gain.total_cmp(&groups[b].gain));
             let Some(widest) = widest.filter(|&row| groups[row].gain > 0.0) else { break };
             let Group { rows, cut, .. } = groups.swap_remove(widest);
-            groups.extend([rows.start..cut, cut..rows.end].map(|half| Group::new(&mut counted, half)));
+            groups.extend(
+                [rows.start..cut, cut..rows.end].map(|half| Group::new(&mut counted, half)),
+            );
         }
-        let mut colors: Vec<Rgb> = groups.into_iter().map(|group| mean(&counted[group.rows])).collect();
+        let mut colors: Vec<Rgb> =
+            groups.into_iter().map(|group| mean(&counted[group.rows])).collect();
         colors.sort_unstable();
         counted.sort_unstable_by_key(|(color, _)| *color);
-        let mixtures = counted.iter().map(|(color, _)| (*color, Mixture::new(*color, &colors))).collect();
+        let mixtures =
+            counted.iter().map(|(color, _)| (*color, Mixture::new(*color, &colors))).collect();
         Self { colors, mixtures }
     }
 
     /// The index of the colour of a pixel. The pattern of two colours is fixed in the picture.
     pub fn index(&self, color: Rgb, [column, row]: [usize; 2]) -> u8 {
         /// Bayer's matrix of order 4.
-        const PATTERN: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
+        const PATTERN: [[u8; 4]; 4] =
+            [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
         let found = self.mixtures.binary_search_by_key(&color, |(color, _)| *color);
-        let Ok(Mixture { nearest, other, n_other }) = found.map(|at| self.mixtures[at].1) else { return 0 };
+        let Ok(Mixture { nearest, other, n_other }) = found.map(|at| self.mixtures[at].1) else {
+            return 0;
+        };
         if PATTERN[row % 4][column % 4] < n_other { other } else { nearest }
     }
 }
@@ -100,7 +108,8 @@ impl Group {
 fn mean(counted: &[(Rgb, f64)]) -> Rgb {
     let n = counted.iter().map(|(_, count)| count).sum::<f64>().max(1.0);
     [0, 1, 2].map(|channel| {
-        let sum = counted.iter().map(|(color, count)| count * f64::from(color[channel])).sum::<f64>();
+        let sum =
+            counted.iter().map(|(color, count)| count * f64::from(color[channel])).sum::<f64>();
         (sum / n).round() as u8
     })
 }
@@ -173,9 +182,11 @@ mod tests {
     /// The mean of a pattern is the colour that it stands for.
     #[test]
     fn patterns_have_the_mean_of_their_colour() {
-        let palette = Palette::new([vec![[0; 3]; 99], vec![[100; 3]; 99], vec![[25; 3]]].concat(), 2);
+        let palette =
+            Palette::new([vec![[0; 3]; 99], vec![[100; 3]; 99], vec![[25; 3]]].concat(), 2);
         assert_eq!(palette.colors, [[0; 3], [100; 3]]);
-        let cells = (0..16).map(|at| palette.colors[palette.index([25; 3], [at % 4, at / 4]) as usize][0]);
+        let cells =
+            (0..16).map(|at| palette.colors[palette.index([25; 3], [at % 4, at / 4]) as usize][0]);
         assert_eq!(cells.map(u32::from).sum::<u32>(), 16 * 25);
     }
 }

@@ -25,7 +25,8 @@ fn write_frames(folder: &Path, name: &str, n_frames: u32, size: [u32; 2], per_in
     for number in 1..=n_frames {
         let comment = format!("uglorentz -ti {number}");
         let metadata = Metadata { comment, per_inch, ..Metadata::default() };
-        let file = Format::Png.encode(&noise(size, u64::from(number) + name.len() as u64), &metadata);
+        let file =
+            Format::Png.encode(&noise(size, u64::from(number) + name.len() as u64), &metadata);
         fs::write(folder.join(format!("{name}_{number}.png")), file).unwrap();
     }
 }
@@ -69,7 +70,10 @@ fn a_frame_is_the_sheet_of_the_frames() {
             }
             assert!(joined.width() - sheet.width() < 2 && joined.height() - sheet.height() < 2);
             let lines: Vec<&str> = history.comment.lines().collect();
-            assert_eq!(lines[..2], [format!("uglorentz -ti {number}"), format!("uglorentz -ti {of_b}")]);
+            assert_eq!(
+                lines[..2],
+                [format!("uglorentz -ti {number}"), format!("uglorentz -ti {of_b}")]
+            );
             assert!(lines[2].starts_with("ugsheet "));
         }
     }
@@ -105,7 +109,8 @@ fn films_are_read_as_they_are_written() {
     write_frames(&folder.path().join("frames"), "a", 5, [24, 16], None);
     join("-fo a.apng a_%d.png");
     join("-fo frames.apng frames");
-    let [named, found] = ["a.apng", "frames.apng"].map(|name| fs::read(folder.path().join(name)).unwrap());
+    let [named, found] =
+        ["a.apng", "frames.apng"].map(|name| fs::read(folder.path().join(name)).unwrap());
     assert_eq!(named, found);
 }
 
@@ -115,11 +120,17 @@ fn a_picture_is_held() {
     let folder = two_films();
     let ugsheet = UGSHEET.in_folder(&folder);
     let notes = ugsheet.notes("-lb none -gap 0 -fo j_%d.png a_1.png bb_%d.png", "");
-    assert!(notes.contains("`a_1.png` has 1 of 3 frames: its only frame is held to the end"), "{notes}");
+    assert!(
+        notes.contains("`a_1.png` has 1 of 3 frames: its only frame is held to the end"),
+        "{notes}"
+    );
     let still = noise([24, 16], 2);
     for number in 1..=3 {
         let (joined, _) = read(&folder, &format!("j_{number}.png"));
-        assert!((0..16).all(|y| (0..24).all(|x| joined.pixel(x, y + 2) == still.pixel(x, y))), "{number}");
+        assert!(
+            (0..16).all(|y| (0..24).all(|x| joined.pixel(x, y + 2) == still.pixel(x, y))),
+            "{number}"
+        );
     }
 }
 
@@ -150,7 +161,12 @@ fn what_is_no_film_is_refused() {
     let mut huge = fs::read(at("a.gif")).unwrap();
     huge[6..10].fill(255);
     fs::write(at("huge.gif"), huge).unwrap();
-    ugsheet.refuses("-dt gif huge.gif", "", 1, "exceed the limit of memory; allow it with --limit memory=");
+    ugsheet.refuses(
+        "-dt gif huge.gif",
+        "",
+        1,
+        "exceed the limit of memory; allow it with --limit memory=",
+    );
     for folder in ["empty", "mixed", "several", "others"] {
         fs::create_dir(at(folder)).unwrap();
     }

@@ -55,10 +55,15 @@ fn places(picture: &Frame, sheet: &Frame) -> Vec<[u32; 2]> {
 
 #[test]
 fn pictures_keep_their_pixels_and_order() {
-    let pictures: Vec<Picture> = (0..5).map(|idx| picture(&format!("p{idx}"), 60, 40, idx)).collect();
+    let pictures: Vec<Picture> =
+        (0..5).map(|idx| picture(&format!("p{idx}"), 60, 40, idx)).collect();
     for (columns, expected) in [(None, 3), (Some(1), 1), (Some(2), 2), (Some(9), 5)] {
-        let config =
-            Config { columns, title: "Title".into(), caption: "Caption".into(), ..Config::default() };
+        let config = Config {
+            columns,
+            title: "Title".into(),
+            caption: "Caption".into(),
+            ..Config::default()
+        };
         let sheet = sheet(&config, &pictures).unwrap();
         let found: Vec<[u32; 2]> = pictures
             .iter()
@@ -81,7 +86,12 @@ fn pictures_keep_their_pixels_and_order() {
 #[test]
 fn without_text_and_margin_a_sheet_is_its_pictures() {
     let pictures = [picture("a", 30, 20, 1), picture("b", 30, 20, 2)];
-    let config = Config { labels: Labels::None, gap: Some([4, 0]), background: [64; 3], ..Config::default() };
+    let config = Config {
+        labels: Labels::None,
+        gap: Some([4, 0]),
+        background: [64; 3],
+        ..Config::default()
+    };
     let sheet = sheet(&config, &pictures).unwrap();
     assert_eq!([sheet.width(), sheet.height()], [64, 20]);
     assert_eq!(places(&pictures[0].frame, &sheet), [[0, 0]]);
@@ -101,7 +111,8 @@ fn pictures_and_labels_are_centred() {
             ..Config::default()
         };
         let sheet = sheet(&config, &pictures).unwrap();
-        let found: Vec<[u32; 2]> = pictures.iter().map(|picture| places(&picture.frame, &sheet)[0]).collect();
+        let found: Vec<[u32; 2]> =
+            pictures.iter().map(|picture| places(&picture.frame, &sheet)[0]).collect();
         assert_eq!(found[0][1] + 25, found[1][1] + 40, "middles of a row");
         assert_eq!(found[0][0] + 50, found[2][0] + 30, "middles of a column");
         for (picture, [x, y]) in pictures.iter().zip(&found).skip(1) {
@@ -109,7 +120,8 @@ fn pictures_and_labels_are_centred() {
             // A label with a text size of 10 pixels lies within the next 16 rows.
             let columns = middle - 20..(middle + 20).min(sheet.width());
             let is_ink = |x: u32, y: u32| sheet.pixel(x, y)[..3] != background;
-            let ink: Vec<u32> = columns.filter(|&x| (bottom..bottom + 16).any(|y| is_ink(x, y))).collect();
+            let ink: Vec<u32> =
+                columns.filter(|&x| (bottom..bottom + 16).any(|y| is_ink(x, y))).collect();
             let (left, right) = (ink[0], ink[ink.len() - 1]);
             assert!((left + right).abs_diff(2 * middle) <= 4, "{left} {right} {middle}");
         }
@@ -121,8 +133,12 @@ fn transparent_pixels_show_the_background() {
     let mut clear = picture("a", 8, 8, 1);
     clear.frame = Frame::clear(8, 8);
     clear.frame.pixels_mut()[0] = [10, 20, 30, 255];
-    let config =
-        Config { labels: Labels::None, gap: Some([0; 2]), background: [200, 100, 0], ..Config::default() };
+    let config = Config {
+        labels: Labels::None,
+        gap: Some([0; 2]),
+        background: [200, 100, 0],
+        ..Config::default()
+    };
     let sheet = sheet(&config, &[clear]).unwrap();
     assert_eq!(sheet.pixel(0, 0), [10, 20, 30, 255]);
     assert_eq!(sheet.pixel(5, 5), [200, 100, 0, 255]);
@@ -137,7 +153,12 @@ fn invalid_requests_are_errors() {
     let error = sheet(&Config::default(), &pictures).unwrap_err();
     assert!(error.to_string().starts_with("in `漢`: the font has no `漢` (U+6F22)"), "{error}");
     assert!(sheet(&Config { labels: Labels::None, ..Config::default() }, &pictures).is_ok());
-    let wide = Config { labels: Labels::None, gap: Some([10_000; 2]), columns: Some(1), ..Config::default() };
+    let wide = Config {
+        labels: Labels::None,
+        gap: Some([10_000; 2]),
+        columns: Some(1),
+        ..Config::default()
+    };
     assert_eq!(sheet(&wide, &[&pictures[..]; 10].concat()), Err(Error::Size));
     // No pixels are read for a sheet that is too large.
     let huge = ugsheet::Picture {
@@ -147,16 +168,21 @@ fn invalid_requests_are_errors() {
         history: Metadata::default(),
     };
     let sheet = Sheet::new(&Config::default(), &[huge.clone(), huge]);
-    assert_eq!(sheet.and_then(|sheet| sheet.draw(|_| unreachable!("nothing is read"))), Err(Error::Size));
+    assert_eq!(
+        sheet.and_then(|sheet| sheet.draw(|_| unreachable!("nothing is read"))),
+        Err(Error::Size)
+    );
 }
 
 /// Sheets have the width asked for, and the height; pictures keep their shape and their light.
 #[test]
 fn sheets_have_the_size_asked_for() {
-    let pictures = [picture("a", 300, 200, 1), picture("b", 150, 250, 2), picture("c", 300, 200, 3)];
+    let pictures =
+        [picture("a", 300, 200, 1), picture("b", 150, 250, 2), picture("c", 300, 200, 3)];
     for width in [151, 1016] {
         for columns in [1, 3] {
-            let config = Config { columns: Some(columns), size: Some((width, None)), ..Config::default() };
+            let config =
+                Config { columns: Some(columns), size: Some((width, None)), ..Config::default() };
             let drawn = sheet(&config, &pictures).unwrap();
             assert_eq!(drawn.width(), width, "{columns} columns");
             let config = Config { size: Some((width, Some(500))), is_even: true, ..config };
@@ -174,8 +200,12 @@ fn sheets_have_the_size_asked_for() {
         *pixel = if (idx + idx / 64) % 2 == 0 { [0, 0, 0, 255] } else { [255, 255, 255, 255] };
     }
     for (picture, expected) in [(grey, 90), (checks, 188)] {
-        let config =
-            Config { labels: Labels::None, gap: Some([0; 2]), size: Some((16, None)), ..Config::default() };
+        let config = Config {
+            labels: Labels::None,
+            gap: Some([0; 2]),
+            size: Some((16, None)),
+            ..Config::default()
+        };
         let drawn = sheet(&config, &[picture]).unwrap();
         assert_eq!([drawn.width(), drawn.height()], [16, 16]);
         assert!(
@@ -223,14 +253,20 @@ fn sheets_state_their_resolution() {
     ugsheet.output("-sz 2in 72pt c.png -fo a.svg", "");
     let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
     assert!(svg.contains("width=\"144pt\" height=\"72pt\""));
-    ugsheet.refuses("-sz 8.6cm 600 c.png", "", 2, "-sz: one side has a unit and the other has none");
+    ugsheet.refuses(
+        "-sz 8.6cm 600 c.png",
+        "",
+        2,
+        "-sz: one side has a unit and the other has none",
+    );
 }
 
 /// A folder with `rest.png` and `fast.png`, which have histories.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, line) in [("rest", "uglorentz"), ("fast", "uglorentz -vel .9 0 0")] {
-        let metadata = Metadata { software: "ugrainbow".into(), comment: line.into(), ..Metadata::default() };
+        let metadata =
+            Metadata { software: "ugrainbow".into(), comment: line.into(), ..Metadata::default() };
         let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &metadata);
         fs::write(folder.path().join(format!("{name}.png")), file).unwrap();
     }
@@ -281,8 +317,13 @@ fn errors_have_messages_and_exit_status() {
 #[test]
 fn the_program_writes_other_formats() {
     let folder = folder();
-    for (file, start) in [("a.pdf", "%PDF-1."), ("a.svg", "<"), ("a.eps", "%!PS-Adobe"), ("a.ppm", "P6")] {
+    for (file, start) in
+        [("a.pdf", "%PDF-1."), ("a.svg", "<"), ("a.eps", "%!PS-Adobe"), ("a.ppm", "P6")]
+    {
         UGSHEET.in_folder(&folder).output(&format!("rest.png fast.png -fo {file}"), "");
-        assert!(fs::read(folder.path().join(file)).unwrap().starts_with(start.as_bytes()), "{file}");
+        assert!(
+            fs::read(folder.path().join(file)).unwrap().starts_with(start.as_bytes()),
+            "{file}"
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! Colours as hues, and highlights.
 
 use ugphysics::{
-    Brightness, Hsv, Velocity, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
+    Brightness, Hsv, Velocity, attenuation, hue_to_wavelength, srgb_decode, srgb_encode,
+    wavelength_to_hue,
 };
 use ugsky::{ALL_NM, Seen, Shade, SkyColors};
 
@@ -21,7 +22,9 @@ fn shade(law: Brightness) -> Shade {
 #[test]
 fn colours_at_rest_are_kept() {
     let shade = shade(Brightness::Report);
-    for rgb in [[0.5, 0.2, 0.1], [0.1, 0.9, 0.9], [0.4, 0.0, 0.4], [0.3, 0.02, 0.6], [0.7, 0.7, 0.7]] {
+    for rgb in
+        [[0.5, 0.2, 0.1], [0.1, 0.9, 0.9], [0.4, 0.0, 0.4], [0.3, 0.02, 0.6], [0.7, 0.7, 0.7]]
+    {
         let seen = seen(&shade, rgb, 1.0);
         assert!((0..3).all(|i| (seen[i] - rgb[i]).abs() < 1e-5), "{rgb:?} {seen:?}");
     }
@@ -51,7 +54,8 @@ fn hues_are_shifted_as_in_1988() {
     let shade = shade(Brightness::Report);
     for step in 0..2000 {
         let part = |by: f64| (f64::from(step) * by).fract();
-        let (hue, doppler) = (-60.0 + 360.0 * part(0.618_034), libm::exp(0.6 * part(0.754_878) - 0.3));
+        let (hue, doppler) =
+            (-60.0 + 360.0 * part(0.618_034), libm::exp(0.6 * part(0.754_878) - 0.3));
         let rest = hue_to_wavelength(hue);
         let nm = rest / doppler;
         // At the ends colours at rest are dark.
@@ -61,10 +65,17 @@ fn hues_are_shifted_as_in_1988() {
         let light = |hue, value: f64| {
             Hsv { hue, saturation: 1.0, value: 1.0 }.to_rgb().map(|part| srgb_decode(value * part))
         };
-        let found = seen(&shade, light(hue, 0.4 * attenuation(rest)).map(|part| part as f32), doppler as f32);
+        let found = seen(
+            &shade,
+            light(hue, 0.4 * attenuation(rest)).map(|part| part as f32),
+            doppler as f32,
+        );
         let expected = light(wavelength_to_hue(nm), 0.4 * doppler * attenuation(nm));
         for (found, expected) in found.into_iter().zip(expected) {
-            assert!((f64::from(found) - expected).abs() < 2e-5, "{hue} {doppler}: {found} {expected}");
+            assert!(
+                (f64::from(found) - expected).abs() < 2e-5,
+                "{hue} {doppler}: {found} {expected}"
+            );
         }
     }
 }

@@ -16,7 +16,8 @@ fn panorama(size: [u32; 2], extent: Extent, light: impl Fn(DVec3) -> f64) -> Pan
     let [_, north] = extent.latitudes;
     let texel = |idx: u32| {
         let [column, row] = [idx % size[0], idx / size[0]].map(|at| f64::from(at) + 0.5);
-        let (sin_long, cos_long) = libm::sincos(west + extent.width() * column / f64::from(size[0]));
+        let (sin_long, cos_long) =
+            libm::sincos(west + extent.width() * column / f64::from(size[0]));
         let (sin_lat, cos_lat) = libm::sincos(north - extent.height() * row / f64::from(size[1]));
         let light = light(DVec3::new(cos_lat * sin_long, cos_lat * cos_long, sin_lat)) as f32;
         [light, 0.5, 1.0 - light, 1.0]
@@ -74,7 +75,9 @@ fn waves(d: DVec3) -> f64 {
 fn footprints_are_means_at_every_size_and_place() {
     for size in [[512, 256], [360, 181], [300, 301]] {
         let sky = panorama(size, Extent::FULL, waves);
-        for axes in [[1e-4, 1e-4], [0.012, 0.012], [0.03, 0.01], [0.05, 0.04], [0.09, 0.09], [0.09, 0.002]] {
+        for axes in
+            [[1e-4, 1e-4], [0.012, 0.012], [0.03, 0.01], [0.05, 0.04], [0.09, 0.09], [0.09, 0.002]]
+        {
             let mut worst: (f64, DVec3) = (0.0, DVec3::ZERO);
             for (idx, direction) in directions().into_iter().enumerate() {
                 let ray = ray(direction, axes, idx as f64);
@@ -112,7 +115,8 @@ fn a_tiny_part_keeps_its_light() {
     const SPACING: f64 = 0.005;
     const SIDE: f64 = 0.02;
     for half in [1e-2, 1e-3, 1e-5, 1e-9] {
-        let extent = Extent { longitudes: [0.7 - half, 0.7 + half], latitudes: [0.3 - half, 0.3 + half] };
+        let extent =
+            Extent { longitudes: [0.7 - half, 0.7 + half], latitudes: [0.3 - half, 0.3 + half] };
         let sky = panorama([16, 16], extent, |_| 0.25);
         let (sin, cos) = libm::sincos(0.3);
         let solid_angle = 4.0 * half * half * cos;
@@ -122,7 +126,8 @@ fn a_tiny_part_keeps_its_light() {
         let mut sums = [0.0; 2];
         for idx in 0..41 * 41 {
             // Off the middle of the grid.
-            let [across, down] = [idx % 41 - 20, idx / 41 - 20].map(|at| SPACING * (f64::from(at) + 0.3));
+            let [across, down] =
+                [idx % 41 - 20, idx / 41 - 20].map(|at| SPACING * (f64::from(at) + 0.3));
             let ray = SkyRay {
                 direction: (center + across * axes[0] + down * axes[1]).normalize(),
                 slopes: axes.map(|axis| SIDE * axis),
@@ -164,7 +169,9 @@ fn a_part_ends_at_its_angles() {
                 n_inside += 1;
                 assert!((alpha - 1.0).abs() < 1e-5, "{alpha} {direction}");
                 assert!((f64::from(light) - mean(waves, &ray)).abs() < 2e-3, "{light} {direction}");
-            } else if margin(latitude, extent.latitudes) < -0.05 || (turn > 0.05 && longitude > east) {
+            } else if margin(latitude, extent.latitudes) < -0.05
+                || (turn > 0.05 && longitude > east)
+            {
                 n_outside += 1;
                 assert!(alpha.abs() < 1e-5 && light.abs() < 1e-5, "{alpha} {direction}");
             }
@@ -226,7 +233,10 @@ fn caches_and_date_lines_do_not_show() {
             0 => (latitude, longitude) = (3.0 * turn - 1.5, 0.2 * climb - 0.1),
             // Far up and down, so that rows at the same place of the cache replace each other.
             1..50 => latitude += 0.15 * (climb - 0.5),
-            _ => (latitude, longitude) = (latitude + 0.02 * (climb - 0.5), longitude + 0.04 * (turn - 0.5)),
+            _ => {
+                (latitude, longitude) =
+                    (latitude + 0.02 * (climb - 0.5), longitude + 0.04 * (turn - 0.5))
+            }
         }
         let ((sin, cos), (up, level)) = (libm::sincos(longitude), libm::sincos(latitude));
         let direction = DVec3::new(level * sin, level * cos, up);

@@ -28,8 +28,8 @@ fn cube_maps_become_panoramas() {
     const SIDE: u32 = 64;
     let face = |[middle, across, down]: [DVec3; 3]| {
         let texel = |idx: u32| {
-            let [u, v] =
-                [idx % SIDE, idx / SIDE].map(|at| (2.0 * f64::from(at) + 1.0) / f64::from(SIDE) - 1.0);
+            let [u, v] = [idx % SIDE, idx / SIDE]
+                .map(|at| (2.0 * f64::from(at) + 1.0) / f64::from(SIDE) - 1.0);
             colored_waves((middle + u * across + v * down).normalize())
         };
         Texels::Light((0..SIDE * SIDE).map(texel).collect())
@@ -39,7 +39,11 @@ fn cube_maps_become_panoramas() {
     let mut directions = directions();
     directions.extend([DVec3::ONE.normalize(), DVec3::new(1.0, 1.0, 0.0).normalize()]);
     for direction in directions {
-        let ray = SkyRay { direction, slopes: [1e-4 * direction.any_orthonormal_vector(); 2], doppler: 1.0 };
+        let ray = SkyRay {
+            direction,
+            slopes: [1e-4 * direction.any_orthonormal_vector(); 2],
+            doppler: 1.0,
+        };
         let (found, expected) = (sampler.light(&ray, 1.0).unwrap(), colored_waves(direction));
         let error = (0..4).map(|i| (found[i] - expected[i]).abs()).fold(0.0, f32::max);
         assert!(error < 4e-3, "{direction}: {found:?}, not {expected:?}");
@@ -48,8 +52,9 @@ fn cube_maps_become_panoramas() {
 
 #[test]
 fn sides_of_another_size_are_refused() {
-    let faces =
-        |n: usize| std::array::from_fn(|idx| Texels::Srgb(vec![[0; 4]; if idx == 3 { n } else { 256 }]));
+    let faces = |n: usize| {
+        std::array::from_fn(|idx| Texels::Srgb(vec![[0; 4]; if idx == 3 { n } else { 256 }]))
+    };
     assert!(CubeMap::new(16, faces(256)).is_ok());
     assert!(matches!(CubeMap::new(16, faces(255)), Err(PanoramaError::Size)));
 }
@@ -98,7 +103,8 @@ fn slopes_are_differences() {
 fn parts_multiply() {
     let star = Star { direction: DVec3::Y, magnitude: -1.0, kelvin: 4000.0 };
     let light = |shift| StarLight::new(&[star], shift, 1.0).irradiance(&star, 2.0);
-    let [all, shift, flux, none] = [[true, true], [true, false], [false, true], [false, false]].map(light);
+    let [all, shift, flux, none] =
+        [[true, true], [true, false], [false, true], [false, false]].map(light);
     for channel in 0..3 {
         assert!((shift[channel] * 32.0 / all[channel] - 1.0).abs() < 1e-12);
         assert!((none[channel] * 32.0 / flux[channel] - 1.0).abs() < 1e-12);

@@ -74,7 +74,9 @@ fn parts_of_spectra_add_up() {
         let table = |range| SpectralTable::new(basis, true, true, 1.0, range).unwrap();
         let (whole, parts) = (table(ALL_NM), ranges.clone().map(table));
         // At rest only visible light is seen.
-        assert!([0, 2].iter().all(|&part| parts[part].seen(grey, 1.0).iter().all(|c| c.abs() < 1e-6)));
+        assert!(
+            [0, 2].iter().all(|&part| parts[part].seen(grey, 1.0).iter().all(|c| c.abs() < 1e-6))
+        );
         for ln_doppler in [-0.93, -0.4, -0.02, 0.0, 0.3, 0.77] {
             let all = whole.seen(grey, libm::exp(ln_doppler));
             let sum: [f32; 3] = std::array::from_fn(|i| {
@@ -84,7 +86,8 @@ fn parts_of_spectra_add_up() {
             assert!(error < 3e-3, "{basis:?} {ln_doppler}: {sum:?} {all:?}");
         }
         // Infrared light is seen when it approaches, ultraviolet light when it recedes.
-        let brightness = |part: &SpectralTable, ln| luminance(part.seen(grey, libm::exp(ln)).map(f64::from));
+        let brightness =
+            |part: &SpectralTable, ln| luminance(part.seen(grey, libm::exp(ln)).map(f64::from));
         assert!(brightness(&parts[2], 0.77) > 0.1 && brightness(&parts[2], -0.77) == 0.0);
         assert!(brightness(&parts[0], -0.77) > 1e-4 && brightness(&parts[0], 0.77) == 0.0);
     }

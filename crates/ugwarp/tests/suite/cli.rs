@@ -29,14 +29,20 @@ fn a_picture_says_how_it_was_made() {
 /// after it.
 #[test]
 fn only_panoramas_are_stated_for_viewers() {
-    let area = |options: &str| ugimage::read_png_header(&UGWARP.output(options, sky())).unwrap().1.panorama;
+    let area = |options: &str| {
+        ugimage::read_png_header(&UGWARP.output(options, sky())).unwrap().1.panorama
+    };
     let whole = Some(PanoramaArea { whole: [40, 20], corner: [0, 0] });
     for options in ["-pan -sz 40 20", "-pan -sz 40 20 -ex auto", "-pan -sz 40 20 -dt png16"] {
         assert_eq!(area(options), whole, "{options}");
     }
-    for options in
-        ["-pan -sz 40 30", "-pan -sz 400 200 -cap text", "-sz 40 20", "-fish 180", "-cube -sz 60 10"]
-    {
+    for options in [
+        "-pan -sz 40 30",
+        "-pan -sz 400 200 -cap text",
+        "-sz 40 20",
+        "-fish 180",
+        "-cube -sz 60 10",
+    ] {
         assert_eq!(area(options), None, "{options}");
     }
 }
@@ -59,7 +65,8 @@ fn the_same_bytes_on_any_number_of_threads() {
 
 #[test]
 fn mistakes_have_answers() {
-    let check = |args: &str, status: i32, expected: &str| UGWARP.refuses(args, sky(), status, expected);
+    let check =
+        |args: &str, status: i32, expected: &str| UGWARP.refuses(args, sky(), status, expected);
     check("-vel 1 0 0", 2, "it must be below 1");
     check("-vel .1 0 0 -cv .1 0 0", 2, "-cv");
     check("-og", 2, "leave out -og");
@@ -110,7 +117,11 @@ fn light_that_is_not_finite_is_bounded() {
     frame.pixels_mut()[middle] = [f32::NAN, 0.5, f32::NAN, 1.0];
     frame.pixels_mut()[middle + 1] = [0.5, f32::INFINITY, f32::NEG_INFINITY, 1.0];
     let output = UGWARP.run(options, file(&frame));
-    assert!(messages(&output).contains("2 pixels of the panorama are not finite"), "{}", messages(&output));
+    assert!(
+        messages(&output).contains("2 pixels of the panorama are not finite"),
+        "{}",
+        messages(&output)
+    );
     let numbers = output.stdout[output.stdout.len() - 4 * 3 * 64..].chunks_exact(4);
     for number in numbers {
         assert!(f32::from_le_bytes(number.try_into().unwrap()).is_finite());
@@ -122,7 +133,8 @@ fn light_that_is_not_finite_is_bounded() {
 fn negative_light_is_black() {
     let draw = |light: f32| {
         let frame = LinearFrame::new([64, 32], true, vec![[light, 0.5, light, 1.0]; 64 * 32]);
-        let file = Format::Exr.encode_linear(&frame, &Metadata::default(), ugimage::Compression::Fast);
+        let file =
+            Format::Exr.encode_linear(&frame, &Metadata::default(), ugimage::Compression::Fast);
         UGWARP.run("-sz 8 8 -dt pfm -cv 0 .5 0", file)
     };
     let (negative, black) = (draw(-0.25), draw(0.0));
@@ -144,7 +156,9 @@ fn lists_of_stars_are_drawn() {
     let list = format!("ra,dec,mag,kelvin\n{list}");
     std::fs::write(folder.path().join("stars.csv"), &list).unwrap();
     let ugwarp = UGWARP.in_folder(&folder);
-    for options in ["-fish 180 -sz 80 60", "-pan -sz 80 60", "-va 100 -sz 80 60", "-cube -sz 240 40"] {
+    for options in
+        ["-fish 180 -sz 80 60", "-pan -sz 80 60", "-va 100 -sz 80 60", "-cube -sz 240 40"]
+    {
         let drawn = |threads: u32, more: &str, input: &[u8]| {
             ugwarp.output(&format!("{options} -cv .4 .6 0 -qt -nt {threads} {more}"), input)
         };
@@ -211,7 +225,8 @@ fn infrared_light_is_a_second_file() {
     std::fs::write(folder.path().join("infrared.png"), file).unwrap();
     let ugwarp = UGWARP.in_folder(&folder);
     let mean = |options: &str| {
-        let args = format!("-sz 8 8 -va 30 -dt ppm -cv 0 .6 0 -ex -3 --infrared infrared.png {options}");
+        let args =
+            format!("-sz 8 8 -va 30 -dt ppm -cv 0 .6 0 -ex -3 --infrared infrared.png {options}");
         let file = ugwarp.output(&args, sky());
         file[file.len() - 192..].iter().map(|&byte| f64::from(byte)).sum::<f64>() / 192.0
     };

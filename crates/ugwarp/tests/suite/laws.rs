@@ -7,8 +7,8 @@ use ugimage::{LinearFrame, Metadata, Samples};
 use ugphysics::spectrum::Spectrum;
 use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_linear_srgb};
 use ugwarp::{
-    Background, Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens,
-    Opened, Panorama, PictureOptions, Sky, Texels, light, render, run,
+    Background, Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift,
+    Lens, Opened, Panorama, PictureOptions, Sky, Texels, light, render, run,
 };
 
 fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
@@ -20,7 +20,8 @@ fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
         let [red, green, blue] = color(DVec3::new(cos_lat * sin_long, cos_lat * cos_long, sin_lat));
         [red as f32, green as f32, blue as f32, 1.0]
     };
-    Panorama::new(size, Texels::Light((0..size[0] * size[1]).map(texel).collect()), Extent::FULL).unwrap()
+    Panorama::new(size, Texels::Light((0..size[0] * size[1]).map(texel).collect()), Extent::FULL)
+        .unwrap()
 }
 
 fn ahead(beta: f64) -> Velocity {
@@ -51,7 +52,8 @@ fn the_forward_hemisphere_is_a_disc() {
     let sky = panorama(1024, |d| [if d.y > 0.0 { 1.0 } else { 0.0 }; 3]);
     for (beta, angle) in [(0.5, 140.0), (0.9, 90.0), (0.99, 40.0)] {
         let mut config = geometry(ahead(beta), [401, 401], Lens::Pinhole);
-        config.picture.camera = CameraOptions { view_angle: Some((angle, None)), ..CameraOptions::default() };
+        config.picture.camera =
+            CameraOptions { view_angle: Some((angle, None)), ..CameraOptions::default() };
         let frame = light(&sky, &config).unwrap();
         let area: f64 = frame.pixels().iter().map(|pixel| f64::from(pixel[0])).sum();
         let focal = 200.5 / libm::tan(0.5 * angle.to_radians());
@@ -91,7 +93,10 @@ fn fields_of_view_are_those_of_a_moving_camera() {
                 let middle = 150 * (302 - step);
                 let pixels = (0..301).map(|k| f64::from(frame.pixels()[middle + k * step][0]));
                 let found = 0.5 * pixels.sum::<f64>();
-                assert!((found - expected).abs() < 0.5, "{lens:?} {degrees}: {found}, not {expected} pixels");
+                assert!(
+                    (found - expected).abs() < 0.5,
+                    "{lens:?} {degrees}: {found}, not {expected} pixels"
+                );
             }
         }
     }
@@ -142,7 +147,10 @@ fn light_is_kept_by_resampling() {
         for channel in 0..3 {
             let [found, expected] =
                 [&weighted, &rest].map(|frame| mean(frame, |pixel| f64::from(pixel[channel])));
-            assert!((found / expected - 1.0).abs() < 1e-3, "{beta} {channel}: {found}, not {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < 1e-3,
+                "{beta} {channel}: {found}, not {expected}"
+            );
         }
     }
 }
@@ -164,8 +172,12 @@ fn a_black_body_sky_stays_one() {
             let xyz = linear_srgb_to_xyz([pixel[0], pixel[1], pixel[2]].map(f64::from));
             let exact = spectrum.seen(f64::from(factor));
             for axis in 0..2 {
-                let [found, expected] = [xyz, exact].map(|xyz| xyz[axis] / (xyz[0] + xyz[1] + xyz[2]));
-                assert!((found - expected).abs() < 1e-4, "{beta} {factor}: {found}, not {expected}");
+                let [found, expected] =
+                    [xyz, exact].map(|xyz| xyz[axis] / (xyz[0] + xyz[1] + xyz[2]));
+                assert!(
+                    (found - expected).abs() < 1e-4,
+                    "{beta} {factor}: {found}, not {expected}"
+                );
             }
             assert!((xyz[1] / exact[1] - 1.0).abs() < 2e-3, "{beta} {factor}: {xyz:?} {exact:?}");
         }
@@ -206,8 +218,9 @@ fn psnr(one: &LinearFrame, other: &LinearFrame) -> f64 {
 
 /// Hills of all sizes down to a few texels, and a soft edge.
 fn landscape(d: DVec3) -> [f64; 3] {
-    let wave =
-        |k: f64, shift: f64| libm::sin(k * d.x + shift) * libm::cos(k * d.z - shift) * libm::sin(k * d.y);
+    let wave = |k: f64, shift: f64| {
+        libm::sin(k * d.x + shift) * libm::cos(k * d.z - shift) * libm::sin(k * d.y)
+    };
     let sum: f64 = [(3.0, 0.2), (9.0, 1.0), (27.0, 2.0), (60.0, 0.5)]
         .iter()
         .map(|&(k, s)| wave(k, s) / libm::sqrt(k))
@@ -217,8 +230,12 @@ fn landscape(d: DVec3) -> [f64; 3] {
 }
 
 fn as_panorama(frame: &LinearFrame) -> Panorama {
-    Panorama::new([frame.width(), frame.height()], Texels::Light(frame.pixels().to_vec()), Extent::FULL)
-        .unwrap()
+    Panorama::new(
+        [frame.width(), frame.height()],
+        Texels::Light(frame.pixels().to_vec()),
+        Extent::FULL,
+    )
+    .unwrap()
 }
 
 /// A panorama warped by v and then by −v is the same again, light included.
@@ -245,9 +262,10 @@ fn warping_back_is_the_inverse() {
     );
     let velocity = Velocity::from_beta(DVec3::new(0.3, 0.35, 0.2)).unwrap();
     assert!((velocity.speed() - 0.5).abs() < 0.01);
-    for shift in
-        [ColorShift::NONE, ColorShift::Hues(HueShift { doppler: false, law: Brightness::Bolometric })]
-    {
+    for shift in [
+        ColorShift::NONE,
+        ColorShift::Hues(HueShift { doppler: false, law: Brightness::Bolometric }),
+    ] {
         let warped = |sky: &Panorama, velocity: Velocity| {
             let config = Config { shift, ..geometry(velocity, size, Lens::Panorama) };
             light(sky, &config).unwrap()
@@ -294,8 +312,9 @@ fn pixels_that_show_half_the_sky() {
 /// The largest numbers beside 0 add up to more than single precision holds. They stay numbers.
 #[test]
 fn the_brightest_light_is_a_number() {
-    let texel =
-        |idx: usize| if idx.is_multiple_of(3) { [f32::MAX, f32::MAX, f32::MAX, 1.0] } else { [0.0; 4] };
+    let texel = |idx: usize| {
+        if idx.is_multiple_of(3) { [f32::MAX, f32::MAX, f32::MAX, 1.0] } else { [0.0; 4] }
+    };
     let texels = Texels::Light((0..64 * 32).map(texel).collect());
     let sky = Panorama::new([64, 32], texels, Extent::FULL).unwrap();
     let shift = ColorShift::spectra(true, true);
@@ -332,12 +351,16 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     // The middle of the pixel is half a pixel off, in longitude and latitude.
     let cosine = libm::cos(PI / 64.0) * libm::cos(PI / 64.0);
     let doppler = 1.0 / (ahead(0.6).gamma() * (1.0 - 0.6 * cosine));
-    let rest = |nm: f64| if nm >= 830.0 { 0.4 / white * ugphysics::spectrum::daylight(nm) } else { 0.0 };
+    let rest =
+        |nm: f64| if nm >= 830.0 { 0.4 / white * ugphysics::spectrum::daylight(nm) } else { 0.0 };
     let flux = libm::pow(doppler, 5.0);
     let xyz = ugphysics::spectrum::integrate(|nm| flux * rest(nm * doppler));
     let expected = xyz_to_linear_srgb(xyz);
     for channel in 0..3 {
-        assert!((f64::from(front[channel]) / expected[channel] - 1.0).abs() < 0.02, "{front:?} {expected:?}");
+        assert!(
+            (f64::from(front[channel]) / expected[channel] - 1.0).abs() < 0.02,
+            "{front:?} {expected:?}"
+        );
         assert_eq!(back[channel], 0.0);
     }
 }
@@ -348,9 +371,12 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
 fn files_are_those_of_whole_pictures() {
     let colors = |d: DVec3| [0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z];
     let opened = Opened { panorama: Some(panorama(256, colors)), ..Opened::default() };
-    let metadata = Metadata { software: "ugwarp".into(), comment: "ugwarp".into(), ..Metadata::default() };
+    let metadata =
+        Metadata { software: "ugwarp".into(), comment: "ugwarp".into(), ..Metadata::default() };
     let fisheye = Lens::Fisheye { angle: PI };
-    for (lens, samples, small) in [(Lens::Pinhole, 1, false), (fisheye, 2, false), (fisheye, 1, true)] {
+    for (lens, samples, small) in
+        [(Lens::Pinhole, 1, false), (fisheye, 2, false), (fisheye, 1, true)]
+    {
         let mut config = geometry(ahead(0.6), [75, 101], lens);
         (config.picture.samples, config.picture.small) = (samples, small);
         config.picture.background = Background::Transparent;

@@ -32,8 +32,13 @@ fn reals(samples: &Samples) -> &[f32] {
 
 fn config(camera: CameraOptions) -> Config {
     let channels = vec![Channel::Doppler, Channel::Direction];
-    let picture =
-        PictureOptions { size: [80, 60], samples: 1, camera, channels, ..PictureOptions::default() };
+    let picture = PictureOptions {
+        size: [80, 60],
+        samples: 1,
+        camera,
+        channels,
+        ..PictureOptions::default()
+    };
     Config { picture, ..Config::default() }
 }
 
@@ -53,7 +58,8 @@ fn check(text: &str, time: f64, beta: DVec3, [forward, up]: [DVec3; 2]) {
         ..CameraOptions::default()
     };
     let inertial = Config { velocity: Velocity::from_beta(beta).unwrap(), ..self::config(camera) };
-    let [seen, expected] = [&carried, &inertial].map(|config| light(sky.as_slice(), config).unwrap());
+    let [seen, expected] =
+        [&carried, &inertial].map(|config| light(sky.as_slice(), config).unwrap());
     let most = expected.pixels().iter().fold(0.0, |most: f32, pixel| most.max(pixel[1]));
     assert!(most > 0.0);
     for (seen, expected) in seen.pixels().iter().zip(expected.pixels()) {
@@ -95,7 +101,8 @@ fn stars_are_shifted_by_the_exponential_of_own_time() {
         let text = format!("motion ship -acc 0 .4 0; cam -ep 0 0 0 -vc {center} -va .01 <ship>;");
         for time in [0.5, 2.0, 5.0] {
             let config = Config { time, ..config(CameraOptions::default()) };
-            let frame = light(stars().as_slice(), &config.with_camera_of(&scene(&text)).unwrap()).unwrap();
+            let frame =
+                light(stars().as_slice(), &config.with_camera_of(&scene(&text)).unwrap()).unwrap();
             let found = f64::from(reals(&frame.planes()[0].samples)[30 * 80 + 40]);
             let expected = libm::exp(exponent * 0.4 * time);
             assert!((found / expected - 1.0).abs() < 1e-4, "{found}, not {expected}");
@@ -138,14 +145,21 @@ fn cameras_on_turntables_turn() {
 #[test]
 fn options_override_the_camera() {
     let text = "motion table -spin 0 0 .5; cam -ep 0 0 0 -vc 1 0 0 -va 80 <table>;";
-    let options =
-        CameraOptions { center: Some(DVec3::Y), view_angle: Some((50.0, None)), ..Default::default() };
+    let options = CameraOptions {
+        center: Some(DVec3::Y),
+        view_angle: Some((50.0, None)),
+        ..Default::default()
+    };
     let time = FRAC_PI_2 / 0.5;
     let carried = Config { time, ..config(options) }.with_camera_of(&scene(text)).unwrap();
-    let forward =
-        CameraOptions { center: Some(-DVec3::X), view_angle: Some((50.0, None)), ..Default::default() };
+    let forward = CameraOptions {
+        center: Some(-DVec3::X),
+        view_angle: Some((50.0, None)),
+        ..Default::default()
+    };
     let sky = stars();
-    let [seen, expected] = [&carried, &config(forward)].map(|config| light(sky.as_slice(), config).unwrap());
+    let [seen, expected] =
+        [&carried, &config(forward)].map(|config| light(sky.as_slice(), config).unwrap());
     let most = expected.pixels().iter().fold(0.0, |most: f32, pixel| most.max(pixel[1]));
     for (seen, expected) in seen.pixels().iter().zip(expected.pixels()) {
         assert!((seen[1] - expected[1]).abs() < 1e-5 * most);
@@ -153,7 +167,9 @@ fn options_override_the_camera() {
     // Without a motion the camera has its velocity.
     let text = "cam -ep 0 0 0 -vc 0 1 0 -va 80 <.3 .4 0>;";
     check(text, 7.0, DVec3::new(0.3, 0.4, 0.0), AHEAD);
-    let message =
-        config(CameraOptions::default()).with_camera_of(&scene("v a 0 0 0;")).unwrap_err().to_string();
+    let message = config(CameraOptions::default())
+        .with_camera_of(&scene("v a 0 0 0;"))
+        .unwrap_err()
+        .to_string();
     assert_eq!(message, "the scene has no camera");
 }

@@ -68,5 +68,7 @@ fn wrong_shapes_are_refused() {
             .contains("60 x 16 pixels are not the shape of a strip")
     );
     assert!(message(&[file([60, 16])], Arrangement::Cross).contains("not the shape of a cross"));
-    assert!(message(&[file([60, 40])], Arrangement::Equirectangular).contains("twice as wide as high"));
+    assert!(
+        message(&[file([60, 40])], Arrangement::Equirectangular).contains("twice as wide as high")
+    );
 }

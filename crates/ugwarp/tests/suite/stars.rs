@@ -7,8 +7,8 @@ use ugimage::LinearFrame;
 use ugphysics::spectrum::{integrate, planck};
 use ugphysics::{Velocity, linear_srgb_to_xyz};
 use ugwarp::{
-    CameraOptions, Config, Extent, Lens, Panorama, PictureOptions, Sky, Star, StarOptions, Texels, light,
-    read_stars,
+    CameraOptions, Config, Extent, Lens, Panorama, PictureOptions, Sky, Star, StarOptions, Texels,
+    light, read_stars,
 };
 
 /// One square degree, in steradians.
@@ -39,14 +39,18 @@ fn pixel(lens: Lens, [width, height]: [f64; 2], [x, y]: [f64; 2]) -> Option<(DVe
             let [u, v] = place(x + 0.5, y + 0.5);
             let [west, north] = place(x, y);
             let [east, south] = place(x + 1.0, y + 1.0);
-            let area = corner(east, north) - corner(west, north) - corner(east, south) + corner(west, south);
+            let area = corner(east, north) - corner(west, north) - corner(east, south)
+                + corner(west, south);
             Some((DVec3::new(u, 1.0, v).normalize(), area))
         }
         Lens::Panorama => {
             let (sin, cos) = libm::sincos(TAU * ((x + 0.5) / width - 0.5));
             let sine = |y: f64| libm::cos(PI * y / height);
             let (up, level) = (sine(y + 0.5), libm::sin(PI * (y + 0.5) / height));
-            Some((DVec3::new(level * sin, level * cos, up), TAU / width * (sine(y) - sine(y + 1.0))))
+            Some((
+                DVec3::new(level * sin, level * cos, up),
+                TAU / width * (sine(y) - sine(y + 1.0)),
+            ))
         }
         Lens::Fisheye { angle } => {
             let per_pixel = angle / width.min(height);
@@ -65,7 +69,8 @@ fn pixel(lens: Lens, [width, height]: [f64; 2], [x, y]: [f64; 2]) -> Option<(DVe
             let [u, v] = place(x + 0.5, y + 0.5);
             let [west, north] = place(x, y);
             let [east, south] = place(x + 1.0, y + 1.0);
-            let area = corner(east, north) - corner(west, north) - corner(east, south) + corner(west, south);
+            let area = corner(east, north) - corner(west, north) - corner(east, south)
+                + corner(west, south);
             let direction = match side {
                 0 => DVec3::new(1.0, -u, v),
                 1 => DVec3::new(-1.0, u, v),
@@ -119,7 +124,9 @@ const LENSES: [(Lens, [u32; 2]); 4] = [
 fn stars_are_where_and_as_bright_as_theory_says() {
     let mut n_seen = 0;
     for beta in [0.0, 0.5, 0.9, 0.99] {
-        for (idx, degrees) in [0.0_f64, 3.0, 20.0, 41.0, 75.0, 100.0, 140.0, 179.0].into_iter().enumerate() {
+        for (idx, degrees) in
+            [0.0_f64, 3.0, 20.0, 41.0, 75.0, 100.0, 140.0, 179.0].into_iter().enumerate()
+        {
             let angle = degrees.to_radians();
             let turn = 0.7 + 1.9 * idx as f64;
             let aside = DVec3::new(libm::cos(turn), 0.0, libm::sin(turn));
@@ -147,7 +154,11 @@ fn stars_are_where_and_as_bright_as_theory_says() {
                 for axis in 0..3 {
                     let expected = irradiance[axis] * libm::exp10(-0.6);
                     let error = (xyz[axis] - expected).abs() / (size * libm::exp10(-0.6));
-                    assert!(error < 1e-3, "{lens:?} {beta} {degrees} {axis}: {} {expected}", xyz[axis]);
+                    assert!(
+                        error < 1e-3,
+                        "{lens:?} {beta} {degrees} {axis}: {} {expected}",
+                        xyz[axis]
+                    );
                 }
             }
         }
@@ -188,16 +199,24 @@ fn light_is_conserved_at_every_place() {
                     let star = Star { direction, magnitude: 0.0, kelvin: 6000.0 };
                     let frame = light([star].as_slice(), &config).unwrap();
                     let (xyz, _) = measured(&frame, lens);
-                    assert!((xyz[1] - 1.0).abs() < limit, "{lens:?} {width} {direction}: {}", xyz[1]);
+                    assert!(
+                        (xyz[1] - 1.0).abs() < limit,
+                        "{lens:?} {width} {direction}: {}",
+                        xyz[1]
+                    );
                     if step > 0 {
                         continue;
                     }
-                    let both = Sky { panorama: Some(&sky), bands: &[], stars: &[star], highlights: None };
+                    let both =
+                        Sky { panorama: Some(&sky), bands: &[], stars: &[star], highlights: None };
                     let on_grey = light(both, &config).unwrap();
                     let pairs = plain.pixels().iter().zip(frame.pixels());
                     for (found, (behind, star)) in on_grey.pixels().iter().zip(pairs) {
                         let error = (found[1] - behind[1] - star[1]).abs();
-                        assert!(error <= 1e-6 * found[1].abs().max(1.0), "{found:?} {behind:?} {star:?}");
+                        assert!(
+                            error <= 1e-6 * found[1].abs().max(1.0),
+                            "{found:?} {behind:?} {star:?}"
+                        );
                     }
                 }
             }
@@ -289,9 +308,18 @@ help: write as many fields in each line; put a field with a comma in double quot
         ("ra,dec,mag,mag,kelvin\n", "the column `mag` is there twice"),
         ("x,y,z,mag,kelvin\n0,0,0,1,5000\n", "a star without a direction"),
         ("ra,dec,mag,kelvin\n1,2,inf,5000\n", "`inf` is out of range"),
-        ("ra,dec,mag,kelvin\n1,\u{2212}2,3,5000\n", "`\u{2212}` (U+2212) is a minus sign of Unicode"),
-        ("ra;dec;mag;kelvin\n1,5;2;3;5000\n", "`ra` takes degrees from -360 to 360, with a decimal point"),
-        ("ra,dec,phot_g_mean_mag,bp_rp\n1,2,3,4\n", "`bp_rp` is not `b-v`, and Gaia has `teff_gspphot`"),
+        (
+            "ra,dec,mag,kelvin\n1,\u{2212}2,3,5000\n",
+            "`\u{2212}` (U+2212) is a minus sign of Unicode",
+        ),
+        (
+            "ra;dec;mag;kelvin\n1,5;2;3;5000\n",
+            "`ra` takes degrees from -360 to 360, with a decimal point",
+        ),
+        (
+            "ra,dec,phot_g_mean_mag,bp_rp\n1,2,3,4\n",
+            "`bp_rp` is not `b-v`, and Gaia has `teff_gspphot`",
+        ),
         ("10,20,1,5000\n", "a list of stars without directions"),
         ("", "a list of stars without a line of column names"),
     ] {
@@ -305,13 +333,16 @@ help: write as many fields in each line; put a field with a comma in double quot
 fn columns_of_catalogues_are_understood() {
     let expected = read_stars("t.csv", b"ra,dec,mag,kelvin\n105,-16.5,-1.5,9940").unwrap().stars;
     let hyg = "the list has the columns of the HYG catalogue: its right ascensions are in hours";
-    let below = "all right ascensions are below 24 degrees: if they are hours, name the column `ra_hours`";
+    let below =
+        "all right ascensions are below 24 degrees: if they are hours, name the column `ra_hours`";
     let incomplete = "1 stars of the list are left out, since they have not all of a direction, a magnitude and a \
                       temperature or colour index";
     let header = "#\n_RAJ2000\t_DEJ2000\tRAJ2000\tDEJ2000\tVmag\tTeff\n";
-    let vizier = format!("{header}deg\tdeg\t\"h:m:s\"\t\"d:m:s\"\tmag\tK\n---\t---\t---\t---\t---\t---\n");
+    let vizier =
+        format!("{header}deg\tdeg\t\"h:m:s\"\t\"d:m:s\"\tmag\tK\n---\t---\t---\t---\t---\t---\n");
     let vizier = format!("{vizier}105\t-16.5\t07 00 00\t-16 30 00\t-1.5\t9940\n");
-    let nothing = "ra,dec,Gmag,mag,kelvin\n105,-16.5,2,-1.5,9940\n1,2,3,4,null\n1,2,3,4,--\n1,2,3,NaN,5000";
+    let nothing =
+        "ra,dec,Gmag,mag,kelvin\n105,-16.5,2,-1.5,9940\n1,2,3,4,null\n1,2,3,4,--\n1,2,3,NaN,5000";
     let all_incomplete = incomplete.replace('1', "3");
     for (text, notes) in [
         (&*vizier, &[][..]),
@@ -320,7 +351,10 @@ fn columns_of_catalogues_are_understood() {
         ("ra [deg],dec (deg),mag,T [K]\n105,-16.5,-1.5,9940", &[][..]),
         ("RA (h);Dec;Vmag;Teff\n7;-16.5;-1.5;9940", &[]),
         ("ra   dec  mag kelvin name\n105 -16.5 -1.5  9940 Sirius\n", &[]),
-        ("ra,dec,phot_g_mean_mag,bp_rp,teff_gspphot\n105,-16.5,-1.5,.1,9940\n1,2,3,4,", &[incomplete]),
+        (
+            "ra,dec,phot_g_mean_mag,bp_rp,teff_gspphot\n105,-16.5,-1.5,.1,9940\n1,2,3,4,",
+            &[incomplete],
+        ),
         (
             "id,ra,dec,dist,mag,kelvin,rarad\n0,0,0,0,-26.7,5770,0\n1,7,-16.5,2.6,-1.5,9940,1",
             &[incomplete, hyg],
@@ -337,18 +371,24 @@ fn columns_of_catalogues_are_understood() {
     // Tables by name, but not what is something else.
     let is_table = |file: &[u8]| ugwarp::is_star_list("t.CSV", file);
     assert!(
-        is_table(b"1,2\n") && is_table(b"a|b\n") && !is_table(b"<html>") && !is_table(b"\x89PNG\r\n\x1a\n")
+        is_table(b"1,2\n")
+            && is_table(b"a|b\n")
+            && !is_table(b"<html>")
+            && !is_table(b"\x89PNG\r\n\x1a\n")
     );
     let hours = read_stars("t.csv", b"ra,dec,mag,b-v\n6,1,2,0\n7,1,2,0").unwrap();
     assert_eq!(hours.notes, [below]);
     let words = "ra dec mag kelvin\n1  2 3 hot";
-    assert!(read_stars("t.csv", words.as_bytes()).unwrap_err().render(false).contains("--> t.csv:2:8"));
+    assert!(
+        read_stars("t.csv", words.as_bytes()).unwrap_err().render(false).contains("--> t.csv:2:8")
+    );
 }
 
 /// The list of the gallery: Orion's belt is three stars in a row, as bright as each other.
 #[test]
 fn the_list_of_the_gallery_is_read() {
-    let stars = read_stars("stars.csv", include_bytes!("../../../../scenes/stars.csv")).unwrap().stars;
+    let stars =
+        read_stars("stars.csv", include_bytes!("../../../../scenes/stars.csv")).unwrap().stars;
     assert!(stars.len() > 5000, "{}", stars.len());
     let belt = |star: &&Star| star.direction.angle_between(DVec3::new(-0.995, 0.1, -0.02)) < 0.03;
     let belt: Vec<&Star> = stars.iter().filter(belt).filter(|star| star.magnitude < 2.5).collect();

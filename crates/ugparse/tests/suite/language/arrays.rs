@@ -38,7 +38,10 @@ fn placed_vertices_are_named_by_their_path() {
     row("a floor (d) 2;", &["floor#0:p", "floor#1:p"]);
     row("a (d) 2;", &["#0:p", "#1:p"]);
     row("a (d) 1; a (d) 1;", &["d#0:p", "d_2#0:p"]);
-    row("def r; a (d) 2; end; a floor (r) 2;", &["floor#0#0:p", "floor#0#1:p", "floor#1#0:p", "floor#1#1:p"]);
+    row(
+        "def r; a (d) 2; end; a floor (r) 2;",
+        &["floor#0#0:p", "floor#0#1:p", "floor#1#0:p", "floor#1#1:p"],
+    );
     row("def r; i in (d); end; i out (r);", &["out:in:p"]);
     // Names in the text are kept; generated ones get a suffix.
     row("v car:p 0 0 0; i car (d);", &["car:p", "car:p_2"]);
@@ -64,7 +67,9 @@ fn motions(text: &str) -> Vec<String> {
     let lines = flat(text);
     let lines = lines.lines().filter(|line| line.starts_with(['f', 'w']));
     lines
-        .map(|line| line.split_once('<').map_or("", |(_, behind)| behind.trim_end_matches(">;")).to_string())
+        .map(|line| {
+            line.split_once('<').map_or("", |(_, behind)| behind.trim_end_matches(">;")).to_string()
+        })
         .collect()
 }
 
@@ -101,7 +106,10 @@ fn reference_points_are_origins_of_instances() {
     assert_eq!(of("i (d -tx 1);"), ["", "0 0 0.1 -at 1 0 0"]);
     assert_eq!(of("i (d -tx 1) <0 .2 0>;")[0], "0 0.2 0 -at 1 0 0");
     assert_eq!(of("i (d -tx 1) <0 .2 0 -at 5 0 0>;")[0], "0 0.2 0 -at 5 0 0");
-    assert_eq!(of("def e; i (d -tx 1) <0 .2 0>; end; i (e -ty 2 -rz 90);")[0], "-0.2 0 0 -at -2 1 0");
+    assert_eq!(
+        of("def e; i (d -tx 1) <0 .2 0>; end; i (e -ty 2 -rz 90);")[0],
+        "-0.2 0 0 -at -2 1 0"
+    );
     // An array is one body.
     let array = of("a (d -tz 2) 2 -tx 1 <0 .2 0>;");
     assert_eq!([&array[0], &array[2]], ["0 0.2 0 -at 0 0 2"; 2]);

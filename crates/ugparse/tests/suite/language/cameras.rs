@@ -43,8 +43,7 @@ fn a_camera_is_selected_by_name() {
 
 #[test]
 fn comments_move_with_their_cameras() {
-    let text =
-        "v z 0 0 0;\n{ front }\ncam -ep 1 0 0; { from here }\n{ side }\ncam side -ep 2 0 0; { from there }\n";
+    let text = "v z 0 0 0;\n{ front }\ncam -ep 1 0 0; { from here }\n{ side }\ncam side -ep 2 0 0; { from there }\n";
     let expected = [
         "v z 0 0 0;",
         "{ side }",
@@ -78,16 +77,32 @@ fn one_outside_definitions_takes_precedence() {
     let car = |camera: &str| format!("def car; {camera} -ep 0 0 1; end; i taxi (car -tx 5);");
     let unused = Some("a camera in a definition is not used");
     // Whichever comes first in the text, and whichever has a name.
-    check(&format!("{} cam -ep 9 0 0;", car("cam")), &["cam -ep 9 0 0;", "cam taxi -ep 5 0 1;"], unused);
-    check(&format!("{} cam a -ep 9 0 0;", car("cam")), &["cam a -ep 9 0 0;", "cam taxi -ep 5 0 1;"], unused);
-    check(&format!("cam a -ep 9 0 0; {}", car("cam")), &["cam a -ep 9 0 0;", "cam taxi -ep 5 0 1;"], unused);
+    check(
+        &format!("{} cam -ep 9 0 0;", car("cam")),
+        &["cam -ep 9 0 0;", "cam taxi -ep 5 0 1;"],
+        unused,
+    );
+    check(
+        &format!("{} cam a -ep 9 0 0;", car("cam")),
+        &["cam a -ep 9 0 0;", "cam taxi -ep 5 0 1;"],
+        unused,
+    );
+    check(
+        &format!("cam a -ep 9 0 0; {}", car("cam")),
+        &["cam a -ep 9 0 0;", "cam taxi -ep 5 0 1;"],
+        unused,
+    );
     check(
         &format!("{} cam a -ep 9 0 0;", car("cam b")),
         &["cam a -ep 9 0 0;", "cam taxi:b -ep 5 0 1;"],
         unused,
     );
     check(&format!("cam -ep 9 0 0; {}", car("cam")), &["cam -ep 9 0 0;", "cam -ep 5 0 1;"], None);
-    check(&format!("{} cam -ep 9 0 0;", car("cam b")), &["cam taxi:b -ep 5 0 1;", "cam -ep 9 0 0;"], None);
+    check(
+        &format!("{} cam -ep 9 0 0;", car("cam b")),
+        &["cam taxi:b -ep 5 0 1;", "cam -ep 9 0 0;"],
+        None,
+    );
     // Alone it is used; of several copies the first.
     check(&car("cam"), &["cam -ep 5 0 1;"], None);
     check(
@@ -95,14 +110,17 @@ fn one_outside_definitions_takes_precedence() {
         &["cam -ep 0 0 1;", "cam -ep 1 0 1;"],
         Some("this camera is placed 2 times"),
     );
-    let text =
-        "def car;\n{ in }\ncam -ep 0 0 1; { here }\nend;\ni taxi (car);\n{ out }\ncam -ep 9 0 0; { there }";
-    let expected = ["{ out }", "cam -ep 9 0 0; { there }", "{ in }", "cam taxi -ep 0 0 1; { here }"];
+    let text = "def car;\n{ in }\ncam -ep 0 0 1; { here }\nend;\ni taxi (car);\n{ out }\ncam -ep 9 0 0; { there }";
+    let expected =
+        ["{ out }", "cam -ep 9 0 0; { there }", "{ in }", "cam taxi -ep 0 0 1; { here }"];
     check(text, &expected, unused);
     let warnings = parse_with(text, false).warnings;
     let drawn = warnings.render(false);
     assert!(drawn.contains("test.ug:3:1") && !drawn.contains("(-cam)"), "{drawn}");
     // A command line adds the option.
     let worded = warnings.worded().render(false);
-    assert!(worded.ends_with("choose this one by its name `taxi`, or remove one of them (-cam)"), "{worded}");
+    assert!(
+        worded.ends_with("choose this one by its name `taxi`, or remove one of them (-cam)"),
+        "{worded}"
+    );
 }

@@ -28,9 +28,11 @@ fn comments_keep_their_places() {
 #[test]
 fn braces_in_quotes_are_text() {
     check("sky \"a{b}.png\";\nv a 0 0 0;", &["sky \"a{b}.png\";", "v a 0 0 0;"]);
-    for text in
-        ["motion ship -path \"a{b\" ;\nq } ;\n", "c_rgb a 1 1 1 ; c_tex a \"x{y\" ; } {", "c_tex a \"{\n"]
-    {
+    for text in [
+        "motion ship -path \"a{b\" ;\nq } ;\n",
+        "c_rgb a 1 1 1 ; c_tex a \"x{y\" ; } {",
+        "c_tex a \"{\n",
+    ] {
         assert!(ugparse::parse(&Source::new("t.ug", text), &Options::default()).is_err(), "{text}");
     }
 }

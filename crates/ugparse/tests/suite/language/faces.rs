@@ -8,7 +8,10 @@ const SQUARE: &str =
 #[test]
 fn holes_are_kept_in_order() {
     check_rest(&format!("{SQUARE} f (a b c d) (e h g f);"), &["f (a b c d) (e h g f);"]);
-    check_rest(&format!("{SQUARE} f roof (a b c d)(e f g)(g h e);"), &["f roof (a b c d) (e f g) (g h e);"]);
+    check_rest(
+        &format!("{SQUARE} f roof (a b c d)(e f g)(g h e);"),
+        &["f roof (a b c d) (e f g) (g h e);"],
+    );
     // In a mirrored face every contour is reversed and keeps its first vertex.
     check_rest(
         &format!("def t; {SQUARE} f (a b c d) (e h g f); end; i m (t -mx);"),
@@ -46,8 +49,14 @@ fn faces_that_are_not_flat_cause_one_warning() {
     row("f (a b far d);", &[]);
     row("f (a b up d);", &["face is not flat"]);
     row("f roof (a b up d);", &["face `roof` is not flat"]);
-    row("f (a b c d); f roof (a b up d); f (a b up d);", &["face `roof` and one other are not flat"]);
-    row("f r (a b up d) (e f g h); f (a b up d); f (a b up d);", &["face `r` and 2 others are not flat"]);
+    row(
+        "f (a b c d); f roof (a b up d); f (a b up d);",
+        &["face `roof` and one other are not flat"],
+    );
+    row(
+        "f r (a b up d) (e f g h); f (a b up d); f (a b up d);",
+        &["face `r` and 2 others are not flat"],
+    );
     // Triangles are flat, and so are transformed flat faces.
     row("f (a b up); f (a b c d);", &[]);
     row(&format!("def t; {SQUARE} f (a b c d); end; i (t -rv 1 2 3 40 -sv 1 2 3 7);"), &[]);
@@ -55,9 +64,13 @@ fn faces_that_are_not_flat_cause_one_warning() {
         "def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; a (t) 3 -tx 5;",
         &["face `q` and 2 others are not flat"],
     );
-    row("def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; i (t -sz .01);", &[]);
+    row(
+        "def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; i (t -sz .01);",
+        &[],
+    );
     // In a scene as seen, bent faces are correct.
-    let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {SQUARE} v up 4 4 .1; f (a b up d);");
+    let seen =
+        format!("(ugstage 1 geometry as-seen eye 0 0 0) {SQUARE} v up 4 4 .1; f (a b up d);");
     assert_eq!(warnings(&seen, false), [""; 0]);
 }
 
@@ -96,9 +109,14 @@ help: remove it, or correct its vertices"
 
 #[test]
 fn faces_collapsed_by_their_instance_are_omitted() {
-    let text = format!("def t; {TRIANGLE} f roof (a b c); end; a row (t -sx 0) 3 -tz 1; i good (t);");
+    let text =
+        format!("def t; {TRIANGLE} f roof (a b c); end; a row (t -sx 0) 3 -tz 1; i good (t);");
     check_rest(&text, &["f good:roof (good:a good:b good:c);"]);
-    assert_eq!(warnings(&text, false), ["face has no area where it is placed"], "once, not for every copy");
+    assert_eq!(
+        warnings(&text, false),
+        ["face has no area where it is placed"],
+        "once, not for every copy"
+    );
     // So far away that their size is lost to rounding.
     let text = format!("def t; {TRIANGLE} f (a b c); end; i (t -tx 1e200);");
     check_rest(&text, &[]);

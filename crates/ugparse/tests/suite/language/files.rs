@@ -21,9 +21,10 @@ fn read_with(files: &[(&str, &str)], options: &Options) -> String {
         match (request.kind, text.strip_prefix("#!")) {
             (RequestKind::Include | RequestKind::Path, None) => Ok(text.as_bytes().to_vec()),
             (RequestKind::Execute, Some(rest)) => match rest.strip_prefix('3') {
-                Some(complaint) => {
-                    Err(RequestError::Failed { status: "exit status: 3".into(), complaint: complaint.into() })
-                }
+                Some(complaint) => Err(RequestError::Failed {
+                    status: "exit status: 3".into(),
+                    complaint: complaint.into(),
+                }),
                 None => Ok(rest.as_bytes().to_vec()),
             },
             _ => Err(io::Error::other("of another kind").into()),
@@ -54,13 +55,15 @@ fn message_with(files: &[(&str, &str)], options: &Options) -> String {
 fn tables_are_read() {
     let scene = "include \"sub/ship.ug\";\nv a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <ship>;";
     let motion = "motion ship -spin 0 0 .1 -path { of the ship } \"my table.csv\" ;";
-    let expected = "{ of the ship }\nmotion ship -path (-1 0 0 0 1 0.5 0 0 2 1 0.25 0) -spin 0 0 0.1;\n";
+    let expected =
+        "{ of the ship }\nmotion ship -path (-1 0 0 0 1 0.5 0 0 2 1 0.25 0) -spin 0 0 0.1;\n";
     for table in [
         "t,x,y,z\n-1,0,0,0\n1,0.5,0,0\n2,1,0.25,0\n",
         "\u{feff}# 7 \"other\"\r\n\r\n\"x\", \"y\", \"name\", \"z\", \"t\"\r\n0,0,here,0,-1\r\n5e-1,+0, ,0,1\r\n1,.25,there,0,2",
         "  t x y z\n -1 0 0 0\n# then\n 1\t.5 0 0\n 2 1 .25  0 \n\n",
     ] {
-        let written = read(&[("scene.ug", scene), ("sub/ship.ug", motion), ("sub/my table.csv", table)]);
+        let written =
+            read(&[("scene.ug", scene), ("sub/ship.ug", motion), ("sub/my table.csv", table)]);
         assert!(written.starts_with(expected), "{table}: {written}");
         assert_eq!(read(&[("written.ug", &written)]), written);
     }
@@ -94,10 +97,13 @@ fn file_names_of_tables_stay_as_they_are() {
 fn files_are_included() {
     let triangle = ("sub/triangle.ug", "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\nf (a b c) red");
     let colors = ("colors.ug", "{ of colours }\nc red 1 0;\n");
-    let expected = "{ head }\nc red 1 0 1;\nv t:a 0 0 0;\nv t:b 1 0 0;\nv t:c 0 1 0;\nf (t:a t:b t:c) red;\n";
-    let scene = "{ head }\ndef t; include sub/triangle.ug; end; i (t);\ninclude \"sub/../colors.ug\" ;";
+    let expected =
+        "{ head }\nc red 1 0 1;\nv t:a 0 0 0;\nv t:b 1 0 0;\nv t:c 0 1 0;\nf (t:a t:b t:c) red;\n";
+    let scene =
+        "{ head }\ndef t; include sub/triangle.ug; end; i (t);\ninclude \"sub/../colors.ug\" ;";
     let whole = format!("{};", triangle.1);
-    let written = read(&[("scene.ug", scene), (triangle.0, &whole), ("sub/../colors.ug", "c red 1 0;")]);
+    let written =
+        read(&[("scene.ug", scene), (triangle.0, &whole), ("sub/../colors.ug", "c red 1 0;")]);
     assert_eq!(written, expected);
     // Names are relative to the file that contains them.
     let inner = [
@@ -109,7 +115,9 @@ fn files_are_included() {
     assert_eq!(read(&inner), "v p 1 2 3;\n");
     // Including the same file twice is not recursive.
     assert_eq!(
-        read(&[("s.ug", "include c.ug; include c.ug;"), ("c.ug", "{ again }")]).matches("again").count(),
+        read(&[("s.ug", "include c.ug; include c.ug;"), ("c.ug", "{ again }")])
+            .matches("again")
+            .count(),
         2
     );
     assert!(read(&[("s.ug", "include colors.ug;"), colors]).contains("c red 1 0 1;"));
@@ -161,12 +169,14 @@ fn files_that_are_no_scenes_are_not_quoted() {
     ];
     for secret in secrets {
         let found = read(&[("s.ug", "{}\n include \"a file\";"), ("a file", secret)]);
-        let expected =
-            "error: file `a file` is not UniGrafix\n --> s.ug:2:11\n  |\n2 |  include \"a file\";\n";
+        let expected = "error: file `a file` is not UniGrafix\n --> s.ug:2:11\n  |\n2 |  include \"a file\";\n";
         assert!(found.starts_with(expected) && !found.contains("secret"), "{secret}: {found}");
         let allowed = Options { execute: true, ..Options::default() };
         let found = read_with(&[("s.ug", "execute p;"), ("p", &format!("#!{secret}"))], &allowed);
-        assert!(found.starts_with("error: the output of `p` is not UniGrafix\n --> s.ug:1:9\n"), "{found}");
+        assert!(
+            found.starts_with("error: the output of `p` is not UniGrafix\n --> s.ug:1:9\n"),
+            "{found}"
+        );
         assert!(!found.contains("secret"), "{secret}: {found}");
     }
     // Errors of scenes are shown.
@@ -217,7 +227,8 @@ fn limits_of_files_can_be_set() {
         limits: Limits::default().with(limit, value),
         ..Options::default()
     };
-    let chain = [("0", "include 1;"), ("1", "include 2;"), ("2", "include 3;"), ("3", "v a 1 2 3;")];
+    let chain =
+        [("0", "include 1;"), ("1", "include 2;"), ("2", "include 3;"), ("3", "v a 1 2 3;")];
     let scene = "v a 1 2 3;\n";
     assert_eq!(read_with(&chain, &with(Limit::Includes, 3)), scene);
     let found = read_with(&chain, &with(Limit::Includes, 2));
@@ -226,7 +237,8 @@ fn limits_of_files_can_be_set() {
     // Far deeper than recursion on the stack would allow.
     let deep: Vec<(String, String)> =
         (0..5001).map(|idx| (format!("{idx}"), format!("include {};", idx + 1))).collect();
-    let mut deep: Vec<(&str, &str)> = deep.iter().map(|(name, text)| (&name[..], &text[..])).collect();
+    let mut deep: Vec<(&str, &str)> =
+        deep.iter().map(|(name, text)| (&name[..], &text[..])).collect();
     deep.push(("5001", "v a 1 2 3;"));
     assert_eq!(read_with(&deep, &with(Limit::Includes, 6000)), scene);
 
@@ -243,7 +255,10 @@ fn limits_of_files_can_be_set() {
     let rest = "{ }".repeat(100);
     let around = [("0", "include 1;"), ("1", &format!("include x/../1;{rest}")), ("x/../1", &rest)];
     let found = read_with(&around, &with(Limit::Text, 500));
-    assert!(found.starts_with("error: with the text of `x/../1` the scene is too large"), "{found}");
+    assert!(
+        found.starts_with("error: with the text of `x/../1` the scene is too large"),
+        "{found}"
+    );
 }
 
 #[test]

@@ -15,14 +15,21 @@ const SOON: Duration = Duration::from_secs(20);
 fn refused(text: impl AsRef<[u8]>, expected: &str) {
     let start = Instant::now();
     let errors = errors(text);
-    assert!(errors.len() == 1 && errors[0].starts_with(expected), "{expected}: {:?}", errors.first());
+    assert!(
+        errors.len() == 1 && errors[0].starts_with(expected),
+        "{expected}: {:?}",
+        errors.first()
+    );
     assert!(start.elapsed() < SOON, "{expected}: {:?}", start.elapsed());
 }
 
 #[test]
 fn large_arrays_are_refused_before_expansion() {
     let def = "def d; v p 0 0 0; end; ";
-    refused(format!("{def} a (d) 1000000000;"), "the expanded scene would have 2000000001 statements");
+    refused(
+        format!("{def} a (d) 1000000000;"),
+        "the expanded scene would have 2000000001 statements",
+    );
     refused(
         format!("{def} a (d) 99999999999999999999999999;"),
         "the expanded scene would have too many statements",
@@ -44,13 +51,17 @@ fn large_arrays_are_refused_before_expansion() {
     // Ten thousand million bytes of names.
     let name = "n".repeat(100_000);
     refused(format!("{def} a {name} (d) 100000;"), "the expanded scene would have 10001");
-    refused(format!("def d; v {name} 0 0 0; end; a (d) 100000;"), "the expanded scene would have 10001");
+    refused(
+        format!("def d; v {name} 0 0 0; end; a (d) 100000;"),
+        "the expanded scene would have 10001",
+    );
 }
 
 #[test]
 fn long_chains_are_refused() {
     let chain = |n: usize| {
-        let defs: String = (1..n).map(|idx| format!("def d{idx}; i (d{}); end;\n", idx - 1)).collect();
+        let defs: String =
+            (1..n).map(|idx| format!("def d{idx}; i (d{}); end;\n", idx - 1)).collect();
         format!("def d0; v p 0 0 0; end;\n{defs}")
     };
     refused(chain(100_000) + "i (d99999);", "the chain of nested instances is too long");
@@ -82,7 +93,8 @@ fn definitions_nest_64_deep() {
 
 #[test]
 fn deep_comments_and_escapes_are_read() {
-    let deep = |open: &str, close: &str| format!("{}{}", open.repeat(100_000), close.repeat(100_000));
+    let deep =
+        |open: &str, close: &str| format!("{}{}", open.repeat(100_000), close.repeat(100_000));
     assert_eq!(flat(deep("{", "}") + "v p 0 0 0;").lines().count(), 2);
     assert_eq!(flat(format!("v p 0 {} 0 0;", deep("{", "}"))).lines().count(), 2);
     assert_eq!(flat(deep("(", ")")).lines().count(), 1);
@@ -99,10 +111,15 @@ fn long_words_are_read() {
         format!("v a {digits} 0 0;"),
         "the number `1234567890123456789012345678901234567890…` is too large",
     );
-    assert_eq!(parse(format!("v a 0.{digits} 0 0;")).vertices[0].position.x, 0.123_456_789_012_345_68);
+    assert_eq!(
+        parse(format!("v a 0.{digits} 0 0;")).vertices[0].position.x,
+        0.123_456_789_012_345_68
+    );
     let zeros = "0".repeat(10_000);
     assert_eq!(
-        parse(format!("v a {zeros}7.5{zeros} 0.{zeros}1 1e-{digits};")).vertices[0].position.to_array(),
+        parse(format!("v a {zeros}7.5{zeros} 0.{zeros}1 1e-{digits};")).vertices[0]
+            .position
+            .to_array(),
         [7.5, 0.0, 0.0]
     );
     refused(format!("def d; end; a (d) {digits};"), "the expanded scene would have");
@@ -113,8 +130,9 @@ fn long_words_are_read() {
 
 #[test]
 fn many_bodies_take_little_time() {
-    let faces: String =
-        (0..100_000).map(|idx| format!("f (a b c) <{} 0 0>;\n", f64::from(idx) / 100_001.0)).collect();
+    let faces: String = (0..100_000)
+        .map(|idx| format!("f (a b c) <{} 0 0>;\n", f64::from(idx) / 100_001.0))
+        .collect();
     let start = Instant::now();
     assert_eq!(parse(format!("{TRIANGLE} {faces}")).bodies.len(), 100_001);
     assert!(start.elapsed() < SOON, "{:?}", start.elapsed());
@@ -134,10 +152,17 @@ fn at_most_20_errors_are_listed() {
 fn odd_bytes_are_refused_outside_comments() {
     refused(b"\0", "`\0` is not a statement");
     refused(b"v a 0 0 0;\n\xff\xfe", "`\u{fffd}\u{fffd}` is not a statement");
-    refused(b"v a\xff 0 0 0;", "expected a name of letters, digits, `:`, `_` and `#`, found `a\u{fffd}`");
+    refused(
+        b"v a\xff 0 0 0;",
+        "expected a name of letters, digits, `:`, `_` and `#`, found `a\u{fffd}`",
+    );
     refused(b"v a \0 0 0;", "expected a number, found `\0`");
-    let dash = ugparse::parse(&Source::new("t.ug", "v a 0 0 \u{2212}1;"), &Options::default()).unwrap_err();
-    assert!(dash.render(false).contains("`\u{2212}` (U+2212) is a minus sign of Unicode"), "{dash}");
+    let dash = ugparse::parse(&Source::new("t.ug", "v a 0 0 \u{2212}1;"), &Options::default())
+        .unwrap_err();
+    assert!(
+        dash.render(false).contains("`\u{2212}` (U+2212) is a minus sign of Unicode"),
+        "{dash}"
+    );
     // Marks of editors before the text, and after it.
     assert_eq!(flat("\u{feff}v a 0 0 0;\n\x1a\r\n".as_bytes()), "v a 0 0 0;\n");
     assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
@@ -210,16 +235,22 @@ fn limits_have_names_defaults_and_bounds() {
     }
     assert_eq!(Limit::from_name("Text"), None);
     // The remedy for a limit at its maximum does not suggest to raise it.
-    let (_, help) = limited("def d; v p 0 0 0; end; a (d) 9999999999;", Limit::Statements, u64::MAX).unwrap();
-    assert_eq!(help, "the limit is 2000000000 statements, and cannot be raised; use smaller arrays");
+    let (_, help) =
+        limited("def d; v p 0 0 0; end; a (d) 9999999999;", Limit::Statements, u64::MAX).unwrap();
+    assert_eq!(
+        help,
+        "the limit is 2000000000 statements, and cannot be raised; use smaller arrays"
+    );
 }
 
 /// Each level of a chain needs stack, so a long chain gets its own stack.
 #[test]
 fn the_longest_chains_are_expanded() {
-    let defs: String = (1..10_000).map(|idx| format!("def d{idx}; i x (d{}); end;\n", idx - 1)).collect();
+    let defs: String =
+        (1..10_000).map(|idx| format!("def d{idx}; i x (d{}); end;\n", idx - 1)).collect();
     let text = format!("def d0; v p 0 0 0; end;\n{defs} i x (d9999 -tx 1);");
-    let options = Options { limits: Limits::default().with(Limit::Chain, 10_000), ..Options::default() };
+    let options =
+        Options { limits: Limits::default().with(Limit::Chain, 10_000), ..Options::default() };
     let scene = ugparse::parse(&Source::new("test.ug", text), &options).unwrap().scene;
     assert_eq!(scene.vertices[0].position.to_array(), [1.0, 0.0, 0.0]);
 }

@@ -29,8 +29,9 @@ const TRIANGLE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
 fn parse_with(text: impl AsRef<[u8]>, lax: bool) -> Parsed {
     let text = text.as_ref();
     let source = Source::new("test.ug", text);
-    ugparse::parse(&source, &Options { lax, ..Options::default() })
-        .unwrap_or_else(|found| panic!("{}\n{}", String::from_utf8_lossy(text), found.render(false)))
+    ugparse::parse(&source, &Options { lax, ..Options::default() }).unwrap_or_else(|found| {
+        panic!("{}\n{}", String::from_utf8_lossy(text), found.render(false))
+    })
 }
 
 fn parse(text: impl AsRef<[u8]>) -> Scene {

@@ -35,7 +35,8 @@ fn faces_and_wires_use_vertices_of_instances() {
 fn instances_of_one_scope_have_distinct_paths() {
     let row = |calls: &str, expected: &[&str]| {
         let scene = parse(format!("def d; v a 0 0 0; end; {calls}"));
-        let names: Vec<&str> = scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect();
+        let names: Vec<&str> =
+            scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect();
         assert_eq!(names, expected, "{calls}");
     };
     row("i x (d); i x (d); i x (d);", &["x:a", "x_2:a", "x_3:a"]);
@@ -71,8 +72,14 @@ fn undefined_paths_are_errors() {
         let found = errors(format!("{def} i car (d); i car2 (e); v o 0 0 0; w (o {path});"));
         assert_eq!(found, [format!("vertex `{path}` is not defined")]);
     }
-    check_error("def d; v a 0 0 0; end; a r (d) 2; v o 0 0 0; w (o r#2:a);", "vertex `r#2:a` is not defined");
-    check_error("def d; v a 0 0 0; end; a r (d) 0; v o 0 0 0; w (o r#0:a);", "vertex `r#0:a` is not defined");
+    check_error(
+        "def d; v a 0 0 0; end; a r (d) 2; v o 0 0 0; w (o r#2:a);",
+        "vertex `r#2:a` is not defined",
+    );
+    check_error(
+        "def d; v a 0 0 0; end; a r (d) 0; v o 0 0 0; w (o r#0:a);",
+        "vertex `r#0:a` is not defined",
+    );
     // Once per statement, however often it is placed.
     check_error(
         &format!("{def} def f; v o 0 0 0; i x (d); w (o x:b); end; a (f) 3;"),
@@ -105,7 +112,8 @@ fn messages_suggest_the_nearest_name() {
         let source = ugparse::Source::new("t.ug", format!("{vertices} f ({word} {word} {word});"));
         let found = ugparse::parse(&source, &ugparse::Options::default()).unwrap_err();
         let help = found.list[0].help.clone().unwrap();
-        let suggested = help.strip_prefix("did you mean `").map(|rest| rest.split('`').next().unwrap());
+        let suggested =
+            help.strip_prefix("did you mean `").map(|rest| rest.split('`').next().unwrap());
         assert_eq!(suggested, expected, "{help}");
     };
     check("wing", &["body", "wign", "wings"], Some("wign"));

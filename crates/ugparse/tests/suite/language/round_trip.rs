@@ -68,7 +68,8 @@ proptest! {
 /// that survives a round trip.
 fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     for lax in [false, true] {
-        match ugparse::parse(&Source::new("any.ug", bytes), &Options { lax, ..Options::default() }) {
+        match ugparse::parse(&Source::new("any.ug", bytes), &Options { lax, ..Options::default() })
+        {
             Ok(parsed) => {
                 let out = written(&parsed);
                 parsed.warnings.render(true);
@@ -93,7 +94,13 @@ fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
 fn surface(scene: &Scene, face: &ugscene::Face) -> Option<(String, [f64; 6])> {
     let surface = scene.surface(face)?;
     let ugscene::SurfaceProperties {
-        diffuse, specular, transmitted, refraction, exponent, absorption, ..
+        diffuse,
+        specular,
+        transmitted,
+        refraction,
+        exponent,
+        absorption,
+        ..
     } = *surface;
     let name = scene.names.get(surface.name).to_string();
     Some((name, [diffuse, specular, transmitted, refraction, exponent, absorption]))
@@ -103,8 +110,9 @@ fn surface(scene: &Scene, face: &ugscene::Face) -> Option<(String, [f64; 6])> {
 fn same(first: &Parsed, second: &Parsed) -> Result<(), TestCaseError> {
     let (a, b) = (&first.scene, &second.scene);
     let vertices = |scene: &Scene| -> Vec<String> {
-        let row =
-            |v: &ugscene::Vertex| format!("{} {:?} {:?}", scene.names.get(v.name), v.position, v.normal);
+        let row = |v: &ugscene::Vertex| {
+            format!("{} {:?} {:?}", scene.names.get(v.name), v.position, v.normal)
+        };
         scene.vertices.iter().map(row).collect()
     };
     let faces = |scene: &Scene| -> Vec<String> {
@@ -127,17 +135,19 @@ fn same(first: &Parsed, second: &Parsed) -> Result<(), TestCaseError> {
     };
     prop_assert_eq!(kinds(a), kinds(b));
     prop_assert_eq!(&first.passed_on.statements, &second.passed_on.statements);
-    let n_comments = |parsed: &Parsed| parsed.scene.head.comments.len() + parsed.passed_on.comments.len();
+    let n_comments =
+        |parsed: &Parsed| parsed.scene.head.comments.len() + parsed.passed_on.comments.len();
     prop_assert_eq!(n_comments(first), n_comments(second));
-    let colors = |scene: &Scene| -> Vec<_> { scene.colors.iter().map(|color| color.translucency).collect() };
+    let colors =
+        |scene: &Scene| -> Vec<_> { scene.colors.iter().map(|color| color.translucency).collect() };
     prop_assert_eq!(colors(a), colors(b));
     Ok(())
 }
 
 const WORDS: &[&str] = &[
-    "v", "f", "w", "c", "c_rgb", "l", "cam", "i", "a", "def", "end", "surf", "execute", "include", "#", "(",
-    ")", "<", ">", ";", ";", ";", "{", "}", "-tx", "-M3", "-ep", "-og", "0", "1", ".5", "-1e300", "1e999",
-    "v1", "d", "red", "\n", "\"", "é", "\0",
+    "v", "f", "w", "c", "c_rgb", "l", "cam", "i", "a", "def", "end", "surf", "execute", "include",
+    "#", "(", ")", "<", ">", ";", ";", ";", "{", "}", "-tx", "-M3", "-ep", "-og", "0", "1", ".5",
+    "-1e300", "1e999", "v1", "d", "red", "\n", "\"", "é", "\0",
 ];
 
 /// Typical and unusual numbers.
@@ -228,7 +238,8 @@ fn body(placeable: &'static [&'static str]) -> impl Strategy<Value = String> {
             text + &format!("v v{idx} {p} {color} {normal};\n")
         })
     });
-    (vertices, prop::collection::vec(statement(placeable), 0..12)).prop_map(|(v, rest)| v + &rest.join(" "))
+    (vertices, prop::collection::vec(statement(placeable), 0..12))
+        .prop_map(|(v, rest)| v + &rest.join(" "))
 }
 
 /// A scene with statements of all kinds and nested definitions.

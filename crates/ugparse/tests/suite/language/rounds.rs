@@ -47,12 +47,17 @@ fn vertices_are_named_after_their_face() {
 
 #[test]
 fn shapes_are_where_the_numbers_and_instances_put_them() {
-    let scene = parse("sphere 1 2 3 4; cylinder 1 2 3 1 2 7 .5; tube 0 0 0 0 3 4 2; disc 1 1 1 0 -3 0 2;");
+    let scene =
+        parse("sphere 1 2 3 4; cylinder 1 2 3 1 2 7 .5; tube 0 0 0 0 3 4 2; disc 1 1 1 0 -3 0 2;");
     let shapes = rounds(&scene);
     let distance = |row: usize, unit: DVec3, from: DVec3| shapes[row].place(unit).distance(from);
-    assert!((distance(0, DVec3::new(0.6, 0.0, 0.8), DVec3::new(1.0, 2.0, 3.0)) - 4.0).abs() < 1e-12);
+    assert!(
+        (distance(0, DVec3::new(0.6, 0.0, 0.8), DVec3::new(1.0, 2.0, 3.0)) - 4.0).abs() < 1e-12
+    );
     assert!(distance(1, DVec3::Z, DVec3::new(1.0, 2.0, 7.0)) < 1e-12);
-    assert!((distance(2, DVec3::new(0.6, 0.8, 0.5), DVec3::new(0.0, 1.5, 2.0)) - 2.0).abs() < 1e-12);
+    assert!(
+        (distance(2, DVec3::new(0.6, 0.8, 0.5), DVec3::new(0.0, 1.5, 2.0)) - 2.0).abs() < 1e-12
+    );
     assert!(shapes[3].normal(DVec3::Z).distance(DVec3::NEG_Y) < 1e-12);
     // A mirrored disc shows its outside where the image of its normal points.
     let scene = parse("def d; disc 0 0 0 0 0 1 1; sphere 1 0 0 1; end; i (d -sx 2 -mz -tx 1);");

@@ -9,7 +9,10 @@ fn references_may_come_first() {
         &["c red 1;", "f (a b c) red;", "w (c a);"],
     );
     check("i (d); def d; i (e); end; def e; v a 1 2 3; end;", &["v d:e:a 1 2 3;"]);
-    check("def d; def f; i (e); end; i (f); end; def e; v a 1 2 3; end; i (d);", &["v d:f:e:a 1 2 3;"]);
+    check(
+        "def d; def f; i (e); end; i (f); end; def e; v a 1 2 3; end; i (d);",
+        &["v d:f:e:a 1 2 3;"],
+    );
 }
 
 #[test]
@@ -18,14 +21,23 @@ fn definitions_are_local_and_shadow_outer_ones() {
     check(text, &["v e:d:in 0 0 0;", "v d:out 0 0 0;"]);
     check_error("def e; def d; end; end; i (d);", "definition `d` is not defined");
     // Siblings of the enclosing definition are visible.
-    check("def d; v a 0 0 0; end; def e; def f; i (d); end; i (f); end; i (e);", &["v e:f:d:a 0 0 0;"]);
+    check(
+        "def d; v a 0 0 0; end; def e; def f; i (d); end; i (f); end; i (e);",
+        &["v e:f:d:a 0 0 0;"],
+    );
     check_error("def d; end; def d; end;", "definition `d` is defined twice");
-    check("def d; v d 0 0 0; end; v d 1 0 0; c d 1; i d (d d);", &["c d 1;", "v d 1 0 0;", "v d:d 0 0 0;"]);
+    check(
+        "def d; v d 0 0 0; end; v d 1 0 0; c d 1; i d (d d);",
+        &["c d 1;", "v d 1 0 0;", "v d:d 0 0 0;"],
+    );
 }
 
 #[test]
 fn vertices_are_visible_in_their_own_scope_only() {
-    check_error(&format!("{TRIANGLE} def d; v x 0 0 0; f (a x x); end;"), "vertex `a` is not defined");
+    check_error(
+        &format!("{TRIANGLE} def d; v x 0 0 0; f (a x x); end;"),
+        "vertex `a` is not defined",
+    );
     assert_eq!(errors("def d; v x 0 0 0; end; i (d); f (d:x x x);").len(), 2);
     assert_eq!(errors("def d; v x 0 0 0; end; f (d:x x x);").len(), 3);
     check_error("v a 0 0 0; v a 0 0 0;", "vertex `a` is defined twice");

@@ -4,8 +4,8 @@ use glam::DVec3;
 use ugphysics::spectrum::InfraredRule;
 use ugphysics::{Brightness, Velocity};
 use ugscene::{
-    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry,
-    Stage, Tint,
+    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, MixtureNames, SeenColors,
+    SeenGeometry, Stage, Tint,
 };
 
 use super::*;
@@ -27,7 +27,8 @@ fn every_stage_reads_back() {
     let third = Velocity::from_beta(DVec3::new(1.0 / 3.0, -1e-300, 0.7)).unwrap();
     let mut geometries = vec![GeometryStage::AtRest, GeometryStage::AsSeen(SEEN)];
     for (contraction, flight_time) in [(true, false), (false, true), (false, false)] {
-        let seen = SeenGeometry { time: -0.1, camera_velocity: third, contraction, flight_time, ..SEEN };
+        let seen =
+            SeenGeometry { time: -0.1, camera_velocity: third, contraction, flight_time, ..SEEN };
         geometries.push(GeometryStage::AsSeen(seen));
     }
     let mut scales: Vec<_> = [(true, InfraredRule::Measured), (false, InfraredRule::Constant)]
@@ -94,9 +95,12 @@ fn it_is_the_unit_of_tints_wherever_it_stands() {
 
 #[test]
 fn it_is_written_after_the_head_comments() {
-    let statement = "(ugstage 1 geometry as-seen eye 0 -12 3 time -5 colors as-seen hues law report lights)";
+    let statement =
+        "(ugstage 1 geometry as-seen eye 0 -12 3 time -5 colors as-seen hues law report lights)";
     check(
-        &format!("{{ head }} c red 1 0;\n(other)\n{{ above }}\n{statement} {{ behind }}\nv a 0 0 0;"),
+        &format!(
+            "{{ head }} c red 1 0;\n(other)\n{{ above }}\n{statement} {{ behind }}\nv a 0 0 0;"
+        ),
         &[
             "{ head }",
             "{ above }",
@@ -108,7 +112,9 @@ fn it_is_written_after_the_head_comments() {
     );
     check(
         "(ugstage 1 colors as-seen wavelengths no-doppler law none\n geometry as-seen eye 1e0 .5 -0.0)",
-        &["(ugstage 1 geometry as-seen eye 1 0.5 -0 colors as-seen wavelengths law none no-doppler)"],
+        &[
+            "(ugstage 1 geometry as-seen eye 1 0.5 -0 colors as-seen wavelengths law none no-doppler)",
+        ],
     );
     check("( ugstage 1 geometry at-rest colors at-rest ) v a 0 0 0;", &["v a 0 0 0;"]);
     check("(ugstage 1)", &[]);
@@ -128,8 +134,12 @@ fn tidy_formats_it_word_by_word() {
         text.map(|text| String::from_utf8(text).unwrap()).map_err(|found| found.render(false))
     };
     let laid_out =
-        tidied("( ugstage\n1 geometry   at-rest colors as-seen  spectra no-flux ) v a 0 0 0;").unwrap();
-    assert_eq!(laid_out, "(ugstage 1 geometry at-rest colors as-seen spectra no-flux)\nv a 0 0 0;\n");
+        tidied("( ugstage\n1 geometry   at-rest colors as-seen  spectra no-flux ) v a 0 0 0;")
+            .unwrap();
+    assert_eq!(
+        laid_out,
+        "(ugstage 1 geometry at-rest colors as-seen spectra no-flux)\nv a 0 0 0;\n"
+    );
     assert_eq!(tidied(&laid_out).unwrap(), laid_out);
     let numbers = tidied("(ugstage 1 geometry as-seen eye +1.50 1e0 0.0)").unwrap();
     assert_eq!(numbers, "(ugstage 1 geometry as-seen eye 1.5 1 0)\n");

@@ -8,7 +8,10 @@ fn vertices() {
     check("c red 1 0 1; v a 1 2 3 red;", &["c red 1 0 1;", "v a 1 2 3 red;"]);
     check("v a 1 2 3 0 0 2;", &["v a 1 2 3 0 0 2;"]);
     check("c red 1 0 1; v a 1 2 3 red 0 -1 0;", &["c red 1 0 1;", "v a 1 2 3 red 0 -1 0;"]);
-    check_error("v 1 2 3;", "expected a name that begins with a letter, `:`, `_` or `#`, found `1`");
+    check_error(
+        "v 1 2 3;",
+        "expected a name that begins with a letter, `:`, `_` or `#`, found `1`",
+    );
     check_error("v a 1 2;", "expected a number, found `;`");
     check_error("v a 1 2 3 4;", "expected a number, found `;`");
     check_error("v a 1 2 3 4 5 6 7;", "expected `;`, found `7`");
@@ -78,8 +81,12 @@ fn labels() {
     row("label head\"γ = 2; ( a )\"a { why } ;", "label head \"γ = 2; ( a )\" a;");
     row("label label \"x\" a <0 .5 0>;", "label label \"x\" a <0 0.5 0>;");
     // A label is part of the body of the first face, else wire, that uses its vertex.
-    row("label \"x\" a; w (a b) <0 .1 0>; f (c b a) <0 .2 0>; f (a b c);", "label \"x\" a <0 0.2 0>;");
-    let refused = |label: &str, expected: &str| check_error(&format!("{TRIANGLE}{label}"), expected);
+    row(
+        "label \"x\" a; w (a b) <0 .1 0>; f (c b a) <0 .2 0>; f (a b c);",
+        "label \"x\" a <0 0.2 0>;",
+    );
+    let refused =
+        |label: &str, expected: &str| check_error(&format!("{TRIANGLE}{label}"), expected);
     let text = "expected text of 1 to 200 letters in quotes, without braces and line breaks";
     let long = format!("label \"{}\" a;", "γ".repeat(201));
     for label in [
@@ -106,9 +113,12 @@ fn labels() {
 fn labels_of_instances() {
     let text = "def d; v p 1 0 0; v q 0 1 0; v r 0 0 1; f (p q r) <.5 0 0>; label n \"end\" p; end;
                 i one (d -tx 2); a (d) 2 -tx 3; label \"path\" one:q;";
-    let labels = ["label one:n \"end\" one:p <0.5 0 0 -at 2 0 0>;", "label d#0:n \"end\" d#0:p <0.5 0 0>;"];
-    let more =
-        ["label d#1:n \"end\" d#1:p <0.5 0 0 -at 3 0 0>;", "label \"path\" one:q <0.5 0 0 -at 2 0 0>;"];
+    let labels =
+        ["label one:n \"end\" one:p <0.5 0 0 -at 2 0 0>;", "label d#0:n \"end\" d#0:p <0.5 0 0>;"];
+    let more = [
+        "label d#1:n \"end\" d#1:p <0.5 0 0 -at 3 0 0>;",
+        "label \"path\" one:q <0.5 0 0 -at 2 0 0>;",
+    ];
     let out = flat(text);
     let found: Vec<&str> = out.lines().filter(|line| line.starts_with("label")).collect();
     assert_eq!(found, [&labels[..], &more[..]].concat());
@@ -220,7 +230,10 @@ fn definitions_and_calls() {
         refused(&format!("a (d) {size};"), &format!("expected a whole number, found `{size}`"));
     }
     check_error("def d v p 0 0 0; end;", "expected `;`, found `v`");
-    check_error("def; end;", "expected a name that begins with a letter, `:`, `_` or `#`, found `;`");
+    check_error(
+        "def; end;",
+        "expected a name that begins with a letter, `:`, `_` or `#`, found `;`",
+    );
     check_error("end;", "there is no open `def` for this `end`");
     check_error("def d; end d;", "expected `;`, found `d`");
     check_error("def d; v p 0 0 0;", "definition `d` is not closed");
@@ -234,17 +247,27 @@ fn escapes_are_kept_as_they_are() {
     check("( a (b) { not a comment ) (;<\")", &["( a (b) { not a comment )", "(;<\")"]);
     check("v a 0 0 0; (one)(two) v b 0 0 0;", &["(one)", "(two)", "v a 0 0 0;", "v b 0 0 0;"]);
     check("(two\nlines)", &["(two", "lines)"]);
-    check("def d; (once) v a 0 0 0; end; i x (d); i y (d);", &["(once)", "v x:a 0 0 0;", "v y:a 0 0 0;"]);
+    check(
+        "def d; (once) v a 0 0 0; end; i x (d); i y (d);",
+        &["(once)", "v x:a 0 0 0;", "v y:a 0 0 0;"],
+    );
     check_error("v a 0 0 0; (open (twice)", "this escape is not closed");
     check_error(")", "`)` is not a statement");
 }
 
 #[test]
 fn lax_passes_on_unknown_statements() {
-    let text = "shine .5 .5 0; v a 0 0 0;\nfuture { with; comment } thing (1 2);\n# pragma;\nv b 0 0 0;";
+    let text =
+        "shine .5 .5 0; v a 0 0 0;\nfuture { with; comment } thing (1 2);\n# pragma;\nv b 0 0 0;";
     check(
         text,
-        &["shine .5 .5 0;", "future { with; comment } thing (1 2);", "# pragma;", "v a 0 0 0;", "v b 0 0 0;"],
+        &[
+            "shine .5 .5 0;",
+            "future { with; comment } thing (1 2);",
+            "# pragma;",
+            "v a 0 0 0;",
+            "v b 0 0 0;",
+        ],
     );
     assert_eq!(
         warnings(text, true),
@@ -260,7 +283,8 @@ fn lax_passes_on_unknown_statements() {
     assert!(directive.contains("# pragma\n") && !directive.contains("# pragma {"), "{directive}");
     assert_eq!(flat(&directive), directive);
     // More of them than the limit of errors: later statements are not lost.
-    let many: String = (0..100).map(|idx| format!("x{idx};\n")).collect::<String>() + "v last 0 0 0;";
+    let many: String =
+        (0..100).map(|idx| format!("x{idx};\n")).collect::<String>() + "v last 0 0 0;";
     assert!(flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
     let refused = ugparse::parse(
         &ugparse::Source::new("test.ug", "thing 1 2"),

@@ -56,9 +56,18 @@ fn the_first_name_after_contours_is_the_color_and_the_second_the_surface() {
         &format!("c s 1; surf s 1 0 0; {TRIANGLE} f s (a b c) s s;"),
         &["c s 1;", "surf s 1 0 0;", "f s (a b c) s s;"],
     );
-    check_error(&format!("c red 1; surf s 1 0 0; {TRIANGLE} f (a b c) red s 1;"), "expected `;`, found `1`");
-    check_error(&format!("c red 1; surf s 1 0 0; {TRIANGLE} f (a b c) red .5 s;"), "expected `;`, found `s`");
-    check_error(&format!("c red 1; surf s 1 0 0; {TRIANGLE} w (a b c) red s;"), "expected `;`, found `s`");
+    check_error(
+        &format!("c red 1; surf s 1 0 0; {TRIANGLE} f (a b c) red s 1;"),
+        "expected `;`, found `1`",
+    );
+    check_error(
+        &format!("c red 1; surf s 1 0 0; {TRIANGLE} f (a b c) red .5 s;"),
+        "expected `;`, found `s`",
+    );
+    check_error(
+        &format!("c red 1; surf s 1 0 0; {TRIANGLE} w (a b c) red s;"),
+        "expected `;`, found `s`",
+    );
 }
 
 #[test]
@@ -89,7 +98,10 @@ fn surfaces_may_come_later_and_from_enclosing_scopes() {
         ],
     );
     // Generated names never replace names in the text.
-    check_rest("surf d:s 1 0 0; def d; surf s 0 1 0; end;", &["surf d:s 1 0 0;", "surf d:s_2 0 1 0;"]);
+    check_rest(
+        "surf d:s 1 0 0; def d; surf s 0 1 0; end;",
+        &["surf d:s 1 0 0;", "surf d:s_2 0 1 0;"],
+    );
     check_error(
         &format!("c r 1; def d; surf s 1 0 0; end; {TRIANGLE} f (a b c) r s;"),
         "surface `s` is not defined",
@@ -115,7 +127,10 @@ fn undefined_surfaces_are_distinguished_from_colours() {
     assert!(guess.contains("there is a colour of that name"), "{guess}");
     assert_eq!(errors(format!("{TRIANGLE} f (a b c) r s;")).len(), 2);
     // The effect of a missing `;` on the next statement.
-    check_error(&format!("c r 1; {TRIANGLE} f (a b c) r\nc g 1;"), "expected `;` before the next statement");
+    check_error(
+        &format!("c r 1; {TRIANGLE} f (a b c) r\nc g 1;"),
+        "expected `;` before the next statement",
+    );
     check_error(
         &format!("c r 1; def d; {TRIANGLE} f (a b c) r\nend;\ni (d);"),
         "expected `;` before the next statement",
@@ -126,13 +141,21 @@ fn undefined_surfaces_are_distinguished_from_colours() {
 fn comments_of_surfaces_stay_with_them() {
     check(
         "{ head }\nv a 0 0 0;\n{ above }\nsurf s 1 0 0; { behind }\nsurf t {inside} 1 0 0;",
-        &["{ head }", "{ above }", "surf s 1 0 0; { behind }", "{inside}", "surf t 1 0 0;", "v a 0 0 0;"],
+        &[
+            "{ head }",
+            "{ above }",
+            "surf s 1 0 0; { behind }",
+            "{inside}",
+            "surf t 1 0 0;",
+            "v a 0 0 0;",
+        ],
     );
 }
 
 #[test]
 fn a_face_has_a_level_or_a_surface() {
-    let text = format!("c r 1; surf s 1 .5 0; {TRIANGLE} f (a b c) r s; f (a b c) r .5; f (a b c);");
+    let text =
+        format!("c r 1; surf s 1 .5 0; {TRIANGLE} f (a b c) r s; f (a b c) r .5; f (a b c);");
     let scene = parse_with(text, false).scene;
     let of_faces: Vec<_> = scene
         .faces

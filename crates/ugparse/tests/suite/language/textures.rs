@@ -17,7 +17,9 @@ fn with_files(name: &str, text: &str, files: &[(&str, &[u8])]) -> Result<Scene, 
     let source = Source::new(name, text);
     let load = |request: &ugparse::Request<'_>| {
         let found = files.iter().find(|(name, _)| Path::new(name) == request.path);
-        assert!(found.is_none() || matches!(request.kind, RequestKind::Image | RequestKind::Include));
+        assert!(
+            found.is_none() || matches!(request.kind, RequestKind::Image | RequestKind::Include)
+        );
         let bytes = found.map(|(_, bytes)| bytes.to_vec());
         bytes.ok_or_else(|| io::Error::other("no such file").into())
     };
@@ -90,8 +92,11 @@ fn pictures_are_found_from_their_scene() {
     assert!(parse(&text).textures.iter().all(|texture| texture.image.bytes.is_empty()));
     // Definitions see the colours around them.
     let scene = parse("c w 1; def d; c_tex w a.png; c own 1; c_tex own b.png; end;");
-    let names: Vec<_> =
-        scene.textures.iter().map(|it| scene.names.get(scene.colors[it.color.index()].name)).collect();
+    let names: Vec<_> = scene
+        .textures
+        .iter()
+        .map(|it| scene.names.get(scene.colors[it.color.index()].name))
+        .collect();
     assert_eq!(names, ["w", "d:own"]);
 }
 
@@ -103,9 +108,15 @@ fn errors_have_a_place_and_a_remedy() {
         ("c w 1; c_emit w v;", "colour `v` is not defined"),
         ("c w 1; c_emit v w;", "colour `v` is not defined"),
         ("c w 1; c_emit w w; c_emit w w;", "colour `w` emits two colours"),
-        ("c w 1; c_emit w;", "expected a name that begins with a letter, `:`, `_` or `#`, found `;`"),
+        (
+            "c w 1; c_emit w;",
+            "expected a name that begins with a letter, `:`, `_` or `#`, found `;`",
+        ),
         ("c w 1; c_tex w;", "expected the file of a picture, found `;`"),
-        ("c w 1; c_tex w a.png -wrap round;", "expected `repeat`, `clamp` or `mirror`, found `round`"),
+        (
+            "c w 1; c_tex w a.png -wrap round;",
+            "expected `repeat`, `clamp` or `mirror`, found `round`",
+        ),
         ("c w 1; c_tex w a.png -factor 1 -1 1;", "the number `-1` is out of range"),
         ("c w 1; c_tex w a.png -image -1;", "expected the number of a picture, from 0, found `-1`"),
         (
@@ -125,14 +136,18 @@ fn errors_have_a_place_and_a_remedy() {
     };
     let shown = error(b"v a 0 0 0;");
     assert!(shown.contains("cannot read `a.png`: not a picture of a kind that is read"), "{shown}");
-    assert!(shown.contains("--> a.ug:2:9") && shown.contains("help: give a picture (PNG,"), "{shown}");
+    assert!(
+        shown.contains("--> a.ug:2:9") && shown.contains("help: give a picture (PNG,"),
+        "{shown}"
+    );
     let missing = with_files("a.ug", "c w 1;\nc_tex w b.png;", &[]).unwrap_err();
     assert!(
         missing.contains("cannot read `b.png`: no such file") && missing.contains("a.ug:2:9"),
         "{missing}"
     );
     // A header that claims 60,000 x 60,000 pixels.
-    let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0\0\0\0\0".to_vec();
+    let mut png =
+        b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0\0\0\0\0".to_vec();
     let crc = png_crc(&png[12..29]);
     png[29..33].copy_from_slice(&crc.to_be_bytes());
     png.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
@@ -140,17 +155,17 @@ fn errors_have_a_place_and_a_remedy() {
     assert!(shown.contains("60000 x 60000 pixels exceed the limit of 268435456"), "{shown}");
     // A mesh without pictures.
     let text = "c w 1; c_tex w a.gltf -image 3;";
-    let shown = with_files("a.ug", text, &[("a.gltf", b"{\"asset\":{\"version\":\"2.0\"}}")]).unwrap_err();
+    let shown =
+        with_files("a.ug", text, &[("a.gltf", b"{\"asset\":{\"version\":\"2.0\"}}")]).unwrap_err();
     assert!(shown.contains("`images[3]` does not exist"), "{shown}");
 }
 
 /// The checksum of a chunk of PNG.
 fn png_crc(bytes: &[u8]) -> u32 {
     let step = |crc: u32, byte: &u8| {
-        (0..8).fold(
-            crc ^ u32::from(*byte),
-            |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 },
-        )
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 }
+        })
     };
     !bytes.iter().fold(!0, step)
 }

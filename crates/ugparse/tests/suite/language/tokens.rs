@@ -166,7 +166,9 @@ fn invalid_names_are_refused() {
 
 #[test]
 fn only_the_first_word_is_a_keyword_and_in_lower_case() {
-    for word in ["V", "F", "Cam", "DEF", "End", "vertex", "ff", "1", "Include", "c_lab", "Surf", "-v"] {
+    for word in
+        ["V", "F", "Cam", "DEF", "End", "vertex", "ff", "1", "Include", "c_lab", "Surf", "-v"]
+    {
         check_error(&format!("{word} a 0 0 0;"), &format!("`{word}` is not a statement"));
     }
 }
@@ -175,9 +177,13 @@ fn only_the_first_word_is_a_keyword_and_in_lower_case() {
 #[test]
 fn columns_count_from_the_beginning_of_the_line() {
     for n_before in [0, 30, 60, 90, 200, 5000] {
-        let text =
-            format!("c red 1; {}v a 0 0 ü0;\n{}f (q);", "v v 0 0 0; ".repeat(n_before), " ".repeat(n_before));
-        let findings = ugparse::parse(&ugparse::Source::new("t.ug", text), &Default::default()).unwrap_err();
+        let text = format!(
+            "c red 1; {}v a 0 0 ü0;\n{}f (q);",
+            "v v 0 0 0; ".repeat(n_before),
+            " ".repeat(n_before)
+        );
+        let findings =
+            ugparse::parse(&ugparse::Source::new("t.ug", text), &Default::default()).unwrap_err();
         let places = findings.locations();
         let drawn = findings.render(false);
         let column = 9 + 11 * n_before + "v a 0 0 ".len() + 1;

@@ -157,7 +157,10 @@ fn normals_of_any_length_are_turned() {
         let scene = parse(format!("def d; v p 0 0 0 {normal}; end; i (d {tforms});"));
         let found = scene.vertices[0].normal.unwrap();
         let unit = found / found.abs().max_element();
-        assert!((unit - DVec3::new(0.0, -1.0, 0.75)).length() < 1e-14, "{length} {tforms}: {found}");
+        assert!(
+            (unit - DVec3::new(0.0, -1.0, 0.75)).length() < 1e-14,
+            "{length} {tforms}: {found}"
+        );
     }
 }
 
@@ -169,7 +172,8 @@ fn invalid_transformations_are_refused() {
     for tforms in ["-sv 0 0 0 2", "-tv 0 0 0 2", "-rv 0 0 0 2", "-mv 0 0 0"] {
         refused(tforms, "the vector is zero");
     }
-    let short = "-tx,-sa,-ta 1 2,-rv 0 0 1,-mv 1 2,-M3 1 2 3 4 5 6 7 8,-M4 1 0 0 0 0 1 0 0 0 0 1 0 1 1 1";
+    let short =
+        "-tx,-sa,-ta 1 2,-rv 0 0 1,-mv 1 2,-M3 1 2 3 4 5 6 7 8,-M4 1 0 0 0 0 1 0 0 0 0 1 0 1 1 1";
     for tforms in short.split(',') {
         refused(tforms, "expected a number, found `)`");
     }
@@ -187,9 +191,24 @@ fn invalid_transformations_are_refused() {
     refused("-M4 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2", "this matrix is not affine");
     refused("-sa 1e200 -sa 1e200", "the transformation overflows");
     refused("-sa 1e308", "coordinates overflow when this is placed");
-    check_error("def d; l 1 0 0 1; end; i (d -sz 0);", "this direction becomes zero when it is placed");
-    check_error("def d; l 1 0 0 9 9; end; i (d -sz 1e308);", "coordinates overflow when this is placed");
-    check_error("def d; cam -ep 0 0 9; end; i (d -sz 1e308);", "coordinates overflow when this is placed");
-    check_error("def d; cam -ud 0 0 9; end; i (d -sz 0);", "this direction becomes zero when it is placed");
-    check_error("def d; v p 1 0 0; end; a (d) 400 -sa 10;", "coordinates overflow when this is placed");
+    check_error(
+        "def d; l 1 0 0 1; end; i (d -sz 0);",
+        "this direction becomes zero when it is placed",
+    );
+    check_error(
+        "def d; l 1 0 0 9 9; end; i (d -sz 1e308);",
+        "coordinates overflow when this is placed",
+    );
+    check_error(
+        "def d; cam -ep 0 0 9; end; i (d -sz 1e308);",
+        "coordinates overflow when this is placed",
+    );
+    check_error(
+        "def d; cam -ud 0 0 9; end; i (d -sz 0);",
+        "this direction becomes zero when it is placed",
+    );
+    check_error(
+        "def d; v p 1 0 0; end; a (d) 400 -sa 10;",
+        "coordinates overflow when this is placed",
+    );
 }

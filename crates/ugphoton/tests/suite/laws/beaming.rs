@@ -14,8 +14,15 @@ fn check(found: f64, expected: f64, tolerance: f64) {
 }
 
 /// The mean over all directions of a number in a panorama whose poles are ±`pole`, a unit vector.
-fn mean(text: &str, pole: DVec3, size: [u32; 2], base: Config, of: impl Fn([f32; 4]) -> f64) -> f64 {
-    let mut config = Config { picture: config(size, pole.any_orthonormal_vector(), 60.0).picture, ..base };
+fn mean(
+    text: &str,
+    pole: DVec3,
+    size: [u32; 2],
+    base: Config,
+    of: impl Fn([f32; 4]) -> f64,
+) -> f64 {
+    let mut config =
+        Config { picture: config(size, pole.any_orthonormal_vector(), 60.0).picture, ..base };
     config.picture.camera.up = Some(pole);
     config.lens = Lens::Panorama;
     let frame = drawn(text, &config);
@@ -37,15 +44,17 @@ fn panoramas_have_the_energy_of_the_sky() {
         [(0.5, [1.0, 1.154_700_538, 1.444_444_444]), (0.9, [1.0, 2.294_157_339, 6.684_210_526])]
     {
         let along = DVec3::new(0.48, 0.6, 0.64);
-        let motion = || MotionOptions { camera_velocity: Some(beta * along), ..MotionOptions::default() };
+        let motion =
+            || MotionOptions { camera_velocity: Some(beta * along), ..MotionOptions::default() };
         let law = |law| Config { motion: motion(), ..by_law(law) };
         let linear = |pixel: [f32; 4]| f64::from(pixel[1]);
         let number = |pixel: [f32; 4]| srgb_encode(linear(pixel));
         let across = along.any_orthonormal_vector();
         for (pole, size, tolerance) in [(along, [2, 4000], 1e-5), (across, [240, 120], 2e-3)] {
             let of = |brightness| mean(&text, pole, size, law(brightness), linear);
-            let squares =
-                mean(&text, pole, size, law(Brightness::Report), |pixel| number(pixel) * number(pixel));
+            let squares = mean(&text, pole, size, law(Brightness::Report), |pixel| {
+                number(pixel) * number(pixel)
+            });
             check(squares, energies[0], tolerance);
             check(of(Brightness::Photon), energies[1], tolerance);
             check(of(Brightness::Bolometric), energies[2], tolerance);

@@ -17,7 +17,9 @@ pub fn drawn(text: &str, config: &Config) -> LinearFrame {
     let source = ugparse::include(source, &options, |request| Ok(picture(request.path))).unwrap();
     let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
     if scene.cameras.is_empty() {
-        scene.cameras.push(ugscene::Camera { eye: Some(DVec3::ZERO), ..ugscene::Camera::default() });
+        scene
+            .cameras
+            .push(ugscene::Camera { eye: Some(DVec3::ZERO), ..ugscene::Camera::default() });
     }
     light(scene, config).unwrap()
 }
@@ -30,7 +32,8 @@ fn picture(path: &Path) -> Vec<u8> {
     let (side, pixels) = match numbers[..] {
         [red, green, blue] => (1, vec![[red as u8, green as u8, blue as u8, 255]]),
         [n, m] => {
-            let places = (0..n * m).flat_map(|row| (0..n * m).map(move |column| (row / m + column / m) % 2));
+            let places =
+                (0..n * m).flat_map(|row| (0..n * m).map(move |column| (row / m + column / m) % 2));
             (n * m, places.map(|odd| if odd == 1 { [255; 4] } else { [0, 0, 0, 255] }).collect())
         }
         _ => panic!("{name}"),
@@ -79,8 +82,9 @@ pub fn value(text: &str, toward: DVec3, base: Config) -> f64 {
 
 /// Vertices and a face. `rest` follows the corners in its statement.
 pub fn polygon(name: &str, corners: &[DVec3], rest: &str) -> String {
-    let vertex =
-        |(at, corner): (usize, &DVec3)| format!("v {name}{at} {} {} {};\n", corner.x, corner.y, corner.z);
+    let vertex = |(at, corner): (usize, &DVec3)| {
+        format!("v {name}{at} {} {} {};\n", corner.x, corner.y, corner.z)
+    };
     let vertices: String = corners.iter().enumerate().map(vertex).collect();
     let names: Vec<String> = (0..corners.len()).map(|at| format!("{name}{at}")).collect();
     format!("{vertices}f ({}) {rest};\n", names.join(" "))
@@ -95,8 +99,9 @@ pub fn square(name: &str, center: DVec3, normal: DVec3, half: f64, rest: &str) -
 /// A cube of half side `half` around the origin.
 pub fn surroundings(name: &str, half: f64, rest: &str) -> String {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
-    let side =
-        |(at, side): (usize, &DVec3)| square(&format!("{name}{at}s"), half * *side, -*side, half, rest);
+    let side = |(at, side): (usize, &DVec3)| {
+        square(&format!("{name}{at}s"), half * *side, -*side, half, rest)
+    };
     sides.iter().enumerate().map(side).collect()
 }
 

@@ -15,7 +15,8 @@ use drawing::{HEAD, seen, seen_with, square, value};
 #[test]
 fn mirrors_shift_frequencies() {
     for (beta, factor) in [(0.5, 3.0), (0.9, 19.0), (-0.5, 1.0 / 3.0), (-0.9, 1.0 / 19.0)] {
-        let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
+        let mirror =
+            square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
         let wall = square("w", DVec3::Z, DVec3::Z, 500.0, "white 1");
         let found = seen(&format!("{HEAD}{mirror}{wall}"), DVec3::NEG_Z).x;
         let expected = srgb_decode(factor);
@@ -89,7 +90,8 @@ fn an_eye_in_glass_sees_refracted_light() {
     for sin in [0.0_f64, 0.3, -0.5] {
         let toward = DVec3::new(sin, 0.0, -(1.0 - sin * sin).sqrt());
         let doppler = 1.0 / (gamma * (1.0 + speed * 1.5 * sin));
-        let found = value(&format!("{HEAD}{}{wall}", slab(0.5, 300.0, "")), toward, Config::default());
+        let found =
+            value(&format!("{HEAD}{}{wall}", slab(0.5, 300.0, "")), toward, Config::default());
         assert!((found / doppler - 1.0).abs() < 1e-6, "{sin}: {found} {doppler}");
     }
 }
@@ -118,10 +120,15 @@ fn moving_glass_around_the_eye_changes_frequencies() {
 #[test]
 fn bodies_may_be_faster_than_light_in_glass() {
     for (beta, rest_place) in [(0.5_f64, -0.1), (-0.9, -0.3), (0.9, 0.3), (0.98, 0.3)] {
-        let wall = square("w", DVec3::Z * rest_place, DVec3::Z, 900.0, &format!("white .5 <0 0 {beta}>"));
+        let wall =
+            square("w", DVec3::Z * rest_place, DVec3::Z, 900.0, &format!("white .5 <0 0 {beta}>"));
         let gamma = 1.0 / (1.0 - beta * beta).sqrt();
         let factor = 0.5 / (gamma * (1.0 - 1.5 * beta).abs());
-        let found = value(&format!("{HEAD}{}{wall}", slab(0.5, 300.0, "")), DVec3::NEG_Z, Config::default());
+        let found = value(
+            &format!("{HEAD}{}{wall}", slab(0.5, 300.0, "")),
+            DVec3::NEG_Z,
+            Config::default(),
+        );
         assert!((found / factor - 1.0).abs() < 1e-6, "{beta}: {found} {factor}");
     }
 }
@@ -144,8 +151,10 @@ fn shadows_of_moving_bodies_lag() {
         let found = seen(&text, DVec3::new(x, 0.0, z)).x;
         assert_eq!(found == 0.0, is_dark, "{x}: {found}");
     }
-    let without =
-        Config { rays: RayOptions { shadows: false, ..RayOptions::default() }, ..Config::default() };
+    let without = Config {
+        rays: RayOptions { shadows: false, ..RayOptions::default() },
+        ..Config::default()
+    };
     assert_eq!(seen_with(&text, DVec3::new(-31.812_302_13, 0.0, -10.0), without).x, 1.0);
 }
 
@@ -153,13 +162,18 @@ fn shadows_of_moving_bodies_lag() {
 #[test]
 fn black_bodies_in_moving_mirrors_stay_black_bodies() {
     for (beta, factor) in [(0.2, 1.5), (-0.2, 1.0 / 1.5)] {
-        let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
+        let mirror =
+            square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
         let wall = square("w", DVec3::Z, DVec3::Z, 500.0, "hot 1");
         let shift = ColorShift::spectra(true, true);
         let text = format!("{HEAD} c_bb hot 5800 0.1;{mirror}{wall}");
         let found = seen_with(&text, DVec3::NEG_Z, Config { shift, ..Config::default() });
-        let expected = DVec3::from(xyz_to_linear_srgb(Spectrum::blackbody(5800.0, 0.1).seen(factor)));
-        assert!((found - expected).length() < 2e-3 * expected.length(), "{beta}: {found} {expected}");
+        let expected =
+            DVec3::from(xyz_to_linear_srgb(Spectrum::blackbody(5800.0, 0.1).seen(factor)));
+        assert!(
+            (found - expected).length() < 2e-3 * expected.length(),
+            "{beta}: {found} {expected}"
+        );
         let other = Spectrum::blackbody(5800.0 * factor, 1.0).seen(1.0);
         let ratio = |xyz: [f64; 3]| xyz[0] / xyz[1];
         let found = ugphysics::linear_srgb_to_xyz(found.to_array());
@@ -187,8 +201,15 @@ fn doppler_factors_multiply_along_a_path() {
     let at_eye = WaveVector::in_vacuum(1.0, -toward);
     let between = backwards(at_eye, DVec3::X, 0.1);
     let at_wall = backwards(between, DVec3::X, -0.2);
-    let found =
-        seen_with(&format!("{HEAD}{right}{left}{wall}"), toward, Config { rays, ..Config::default() }).x;
+    let found = seen_with(
+        &format!("{HEAD}{right}{left}{wall}"),
+        toward,
+        Config { rays, ..Config::default() },
+    )
+    .x;
     // The second mirror is met before the wall, the first again only after more reflections.
-    assert!((found / srgb_decode(1.0 / at_wall.frequency) - 1.0).abs() < 1e-6, "{found} {at_wall:?}");
+    assert!(
+        (found / srgb_decode(1.0 / at_wall.frequency) - 1.0).abs() < 1e-6,
+        "{found} {at_wall:?}"
+    );
 }

@@ -22,20 +22,33 @@ fn square(color: &str, velocity: &str) -> String {
 /// within the error of the lattice; at rest it is the colour, whatever it is.
 #[test]
 fn a_texel_is_shifted_as_its_colour() {
-    let colors =
-        [[200, 40, 30], [12, 130, 60], [20, 30, 180], [230, 180, 40], [128, 128, 128], [250, 245, 252]];
+    let colors = [
+        [200, 40, 30],
+        [12, 130, 60],
+        [20, 30, 180],
+        [230, 180, 40],
+        [128, 128, 128],
+        [250, 245, 252],
+    ];
     let hues = Config {
         shift: ColorShift::Hues(HueShift { doppler: true, law: Brightness::Photon }),
         ..Config::default()
     };
     for [red, green, blue] in colors {
         let [r, g, b] = [red, green, blue].map(|byte| f64::from(byte) / 255.0);
-        let head =
-            format!("{HEAD}c_rgb plain {r} {g} {b}; c 1; c_tex it rgb_{red}_{green}_{blue}; c_rgb it 1 1 1;");
-        for beta in [DVec3::ZERO, DVec3::X * 0.2, DVec3::Y * 0.4, DVec3::Y * -0.4, DVec3::new(-0.5, 0.3, 0.0)]
-        {
+        let head = format!(
+            "{HEAD}c_rgb plain {r} {g} {b}; c 1; c_tex it rgb_{red}_{green}_{blue}; c_rgb it 1 1 1;"
+        );
+        for beta in [
+            DVec3::ZERO,
+            DVec3::X * 0.2,
+            DVec3::Y * 0.4,
+            DVec3::Y * -0.4,
+            DVec3::new(-0.5, 0.3, 0.0),
+        ] {
             let velocity = &format!("<{} {} {}>", beta.x, beta.y, beta.z);
-            let toward = seen_position(DVec3::new(0.1, 3.0, -0.2), Velocity::from_beta(beta).unwrap());
+            let toward =
+                seen_position(DVec3::new(0.1, 3.0, -0.2), Velocity::from_beta(beta).unwrap());
             let at = |color: &str, base: &Config| {
                 let text = head.clone() + &square(color, velocity);
                 seen_with(&text, toward, base.clone())
@@ -57,7 +70,9 @@ fn a_texel_is_shifted_as_its_colour() {
 /// Light is texel times factor times the colours of the vertices, interpolated as light.
 #[test]
 fn factors_multiply_light() {
-    let head = format!("{HEAD}c_rgb it 1 1 1; c_tex it rgb_255_128_0 -factor .5 .25 1; c_rgb half .5 1 .25;");
+    let head = format!(
+        "{HEAD}c_rgb it 1 1 1; c_tex it rgb_255_128_0 -factor .5 .25 1; c_rgb half .5 1 .25;"
+    );
     let light = |tint: &str| {
         let text = head.clone() + &square("it", "").replace(" (", &format!(" {tint} ("));
         // The parentheses of the face are no coordinates.
@@ -105,7 +120,8 @@ fn emitted_light_is_added() {
                     }
                     color => at(color, tint),
                 };
-                let (found, expected) = (at(sum, tint), plain(parts[0], tint) + plain(parts[1], ""));
+                let (found, expected) =
+                    (at(sum, tint), plain(parts[0], tint) + plain(parts[1], ""));
                 let error = (found - expected).abs().max_element() / expected.max_element();
                 assert!(error < 1e-5, "{sum} {tint} {velocity}: {found} {expected}");
             }
@@ -113,7 +129,10 @@ fn emitted_light_is_added() {
             if beta == DVec3::ZERO {
                 let text = head.clone() + &square("warm", "");
                 let light = seen_with(&text, dark, by_shape());
-                assert!(light.distance(DVec3::new(0.3, 0.2, 0.1).map(srgb_decode)) < 1e-6, "{light}");
+                assert!(
+                    light.distance(DVec3::new(0.3, 0.2, 0.1).map(srgb_decode)) < 1e-6,
+                    "{light}"
+                );
             }
         }
     }
@@ -128,7 +147,8 @@ fn alpha_masks_and_blends() {
         "white 0.5",
     );
     let seen = |alpha: &str| {
-        let text = format!("{HEAD}c it 1; c_tex it rgb_255_0_0 {alpha};{}{behind}", square("it", ""));
+        let text =
+            format!("{HEAD}c it 1; c_tex it rgb_255_0_0 {alpha};{}{behind}", square("it", ""));
         seen_with(&text, DVec3::Y, by_shape())
     };
     let (red, wall) = (DVec3::X, DVec3::splat(srgb_decode(0.5)));
@@ -179,7 +199,10 @@ fn psnr<const N: usize>(text: &str, (toward, angle): (DVec3, f64), few: [u32; N]
     few.map(|samples| {
         let found = drawn(samples);
         let errors = found.pixels().iter().zip(exact.pixels()).map(error);
-        -10.0 * libm::log10(errors.map(|error| error * error).sum::<f64>() / exact.pixels().len() as f64)
+        -10.0
+            * libm::log10(
+                errors.map(|error| error * error).sum::<f64>() / exact.pixels().len() as f64,
+            )
     })
 }
 
@@ -200,7 +223,8 @@ fn footprints_prevent_aliasing() {
         ] {
             let text = format!("{HEAD}c it 1; c_tex it checks_8_8;{scene}");
             // Without the outline, where samples alias as on any face.
-            let angle = 0.6 * seen(corners[0]).angle_between(seen(corners[1])).to_degrees().min(100.0);
+            let angle =
+                0.6 * seen(corners[0]).angle_between(seen(corners[1])).to_degrees().min(100.0);
             let view = (seen(corners[0].midpoint(corners[1])), angle);
             let [fine, coarse] = psnr(&text, view, [8, 2]);
             assert!(fine > 38.0, "{velocity}: {fine} dB\n{scene}");
@@ -214,8 +238,12 @@ fn footprints_prevent_aliasing() {
 #[test]
 fn footprints_are_mirrored_and_refracted() {
     let floor = |sign: f64| {
-        let corners =
-            [(-99.0, 3.0, "0 0"), (99.0, 3.0, "50 0"), (99.0, 199.0, "50 50"), (-99.0, 199.0, "0 50")];
+        let corners = [
+            (-99.0, 3.0, "0 0"),
+            (99.0, 3.0, "50 0"),
+            (99.0, 199.0, "50 50"),
+            (-99.0, 199.0, "0 50"),
+        ];
         let vertex = |(name, (x, y, uv)): (char, (f64, f64, &str))| {
             format!("v {name} {x} {} -1.5 ({uv}); ", if sign < 0.0 { 4.0 - y } else { y })
         };

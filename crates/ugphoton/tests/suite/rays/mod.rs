@@ -10,7 +10,8 @@ use uglight::Appearance;
 use ugphoton::{Anchor, CameraOptions, ColorShift, Interpolation, MotionOptions, PictureOptions};
 use ugphysics::{Event, Medium, Velocity, WaveVector};
 use ugpicture::rays::{
-    Corridor, Faces, Intersection, MovingBox, MovingBoxes, PacketMemory, PastRay, Rays, Start, World, along,
+    Corridor, Faces, Intersection, MovingBox, MovingBoxes, PacketMemory, PastRay, Rays, Start,
+    World, along,
 };
 use ugscene::{PlacedBodies, Scene, ShownPoint, View};
 use ugtesting::Random;
@@ -48,9 +49,11 @@ impl Scenery {
         let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         ugscene::cut_rounds(&mut scene, |_, _, _| Some(sagitta)).unwrap();
         ugscene::repeat_vertices(&mut scene, false);
-        let motion = MotionOptions { anchor: Some(Anchor::Origin), time, ..MotionOptions::default() };
+        let motion =
+            MotionOptions { anchor: Some(Anchor::Origin), time, ..MotionOptions::default() };
         let (camera, size) = (CameraOptions::default(), PictureOptions::default().size);
-        let placed = PlacedBodies::move_to_camera_frame(&mut scene, &motion, &camera, size).unwrap();
+        let placed =
+            PlacedBodies::move_to_camera_frame(&mut scene, &motion, &camera, size).unwrap();
         let seen = |(rest, &body): (DVec3, &ugscene::BodyId)| {
             let (seen, own_time) = placed.motions[body.index()].light(rest).unwrap();
             ShownPoint { body, rest, seen, own_time }
@@ -59,7 +62,8 @@ impl Scenery {
             placed.rest_positions(&scene).into_iter().zip(&placed.bodies).map(seen).collect();
         assert_eq!(placed.show(&mut scene, &points, points.len()), None);
         let eye = View::new(&scene, &camera, size).unwrap().eye;
-        let appearance = Appearance::new(&scene, eye, Interpolation::Hue, ColorShift::default(), 1.0);
+        let appearance =
+            Appearance::new(&scene, eye, Interpolation::Hue, ColorShift::default(), 1.0);
         let (frames, rest) = (appearance.surface.frames(), appearance.surface.all_rest());
         let planes = ugscene::shared_planes(&scene, rest, frames);
         let world = World::new(Faces { scene: &scene, rest }, frames, planes, |_| true);
@@ -110,7 +114,9 @@ fn ray(origin: Event, step: Event, start: Start) -> PastRay {
 fn hits_are_those_of_testing_every_body() {
     let mut random = Random(1);
     let mut n_hits = [0; 4];
-    for (n, fastest) in [(5, 0.5), (60, 0.9), (200, 0.99), (60, 0.999_999), (40, 1.0 - 1e-13), (300, 0.05)] {
+    for (n, fastest) in
+        [(5, 0.5), (60, 0.9), (200, 0.99), (60, 0.999_999), (40, 1.0 - 1e-13), (300, 0.05)]
+    {
         let text = scene(&mut random, n, fastest);
         let both = scenery(&text);
         let parts = &both[0].world.parts;
@@ -131,7 +137,8 @@ fn hits_are_those_of_testing_every_body() {
             let origin = Event { t: -random.between(0.0, 40.0), x: random.in_cube(12.0) };
             let step = Event { t: -forward.t, x: -forward.x };
             let range = 0.0..*random.pick(&[5.0, f64::INFINITY]);
-            n_hits[1] += usize::from(check(&both, &ray(origin, step, Start::Event), range).is_some());
+            n_hits[1] +=
+                usize::from(check(&both, &ray(origin, step, Start::Event), range).is_some());
             // From a surface, as for reflections and shadows, and beyond the first hit.
             let Some(first) = first else { continue };
             n_hits[2] += usize::from(check(&both, &primary, first.s..f64::INFINITY).is_some());
@@ -156,8 +163,9 @@ fn packets_hit_what_testing_every_body_hits() {
         for _ in 0..300 {
             let middle = random.direction();
             let spread = *random.pick(&[0.0, 0.01, 0.3, 1.2]);
-            let rays: Vec<PastRay> =
-                (0..64).map(|_| PastRay::from_eye(middle + random.in_ball(1.0) * spread * 0.5)).collect();
+            let rays: Vec<PastRay> = (0..64)
+                .map(|_| PastRay::from_eye(middle + random.in_ball(1.0) * spread * 0.5))
+                .collect();
             let [found, expected] = both.each_ref().map(|Scenery { world, .. }| {
                 let (mut memory, mut first) = (PacketMemory::default(), vec![None; rays.len()]);
                 world.first(both[0].faces(), &rays, 1e-3..f64::INFINITY, &mut memory, &mut first);
@@ -190,10 +198,16 @@ fn shadow_rays_meet_what_testing_every_body_meets() {
                 let ray = ray(origin, Event { t: -toward.length(), x: toward }, Start::Event);
                 let all = |Scenery { world, .. }: &Scenery, corridor: Option<&mut Corridor>| {
                     let mut all = Vec::new();
-                    let _ = world.visit_along(both[0].faces(), &ray, 0.0..distance, corridor, |found| {
-                        all.push(digits(&found));
-                        ControlFlow::Continue(())
-                    });
+                    let _ = world.visit_along(
+                        both[0].faces(),
+                        &ray,
+                        0.0..distance,
+                        corridor,
+                        |found| {
+                            all.push(digits(&found));
+                            ControlFlow::Continue(())
+                        },
+                    );
                     all
                 };
                 let expected = all(&both[1], None);

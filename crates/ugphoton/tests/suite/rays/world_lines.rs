@@ -44,8 +44,11 @@ fn motion(random: &mut Random, kind: usize) -> String {
             };
             // Own time 0 is at its first event, before which the motion is another.
             let rows = times.map(row).join(" ");
-            let spin =
-                if random.one_in(2) { format!("-spin {}", vector(random, 0.2)) } else { String::new() };
+            let spin = if random.one_in(2) {
+                format!("-spin {}", vector(random, 0.2))
+            } else {
+                String::new()
+            };
             format!("-path ({rows}) {spin}")
         }
     }
@@ -70,7 +73,12 @@ fn world(random: &mut Random, kind: usize, n: usize) -> (String, Vec<[DVec3; 3]>
 /// Hits of a ray of light on a triangle, from the emission events of its points alone: where the
 /// direction in which a point is seen is that of the ray, by Newton's method from many points. Each
 /// is its parameter and least barycentric weight.
-fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVec3) -> Vec<(f64, f64)> {
+fn oracle(
+    line: &WorldLine,
+    [a, b, c]: [DVec3; 3],
+    origin: Event,
+    direction: DVec3,
+) -> Vec<(f64, f64)> {
     const N: i32 = 3;
     let (e, f) = direction.normalize().any_orthonormal_pair();
     let seen = |u: f64, v: f64| {
@@ -85,7 +93,8 @@ fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVe
         for _ in 0..30 {
             const STEP: f64 = 1e-5;
             let Some(([x, y], s)) = seen(u, v) else { break };
-            let (Some(([ux, uy], _)), Some(([vx, vy], _))) = (seen(u + STEP, v), seen(u, v + STEP)) else {
+            let (Some(([ux, uy], _)), Some(([vx, vy], _))) = (seen(u + STEP, v), seen(u, v + STEP))
+            else {
                 break;
             };
             let [ux, uy, vx, vy] = [ux - x, uy - y, vx - x, vy - y].map(|change| change / STEP);
@@ -139,7 +148,8 @@ fn hits_are_those_of_emission_events() {
                 _ => Event { t: random.between(-5.0, 5.0), x: random.in_ball(5.0) },
             };
             let [a, b, c] = *random.pick(&triangles);
-            let target = a + random.between(-0.2, 0.8) * (b - a) + random.between(-0.2, 0.8) * (c - a);
+            let target =
+                a + random.between(-0.2, 0.8) * (b - a) + random.between(-0.2, 0.8) * (c - a);
             let Ok(seen) = line.emission(target, origin) else { continue };
             let direction = seen.event.x - origin.x;
             let step = Event { t: -direction.length(), x: direction };
@@ -157,22 +167,34 @@ fn hits_are_those_of_emission_events() {
                     n_hits += 1;
                 }
                 for found in own {
-                    let is_known =
-                        expected.iter().any(|&(s, least)| (found.s - s).abs() < 1e-7 && least > -1e-6);
+                    let is_known = expected
+                        .iter()
+                        .any(|&(s, least)| (found.s - s).abs() < 1e-7 && least > -1e-6);
                     assert!(is_known, "{text}\n{ray:?} {found:?} {expected:?}");
                 }
             }
             let first = closest(&scenery, &ray);
-            assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
+            assert_eq!(
+                first.map(|first| first.s.to_bits()),
+                found.first().map(|first| first.s.to_bits())
+            );
             if let (Some(first), 0) = (first, idx % 2) {
                 let Scenery { scene, appearance, world, .. } = &scenery;
-                let (face_colors, textures) = (&appearance.all_face_colors(scene), &Textures::default());
+                let (face_colors, textures) =
+                    (&appearance.all_face_colors(scene), &Textures::default());
                 let surfaces = Surfaces { scene, world, appearance, face_colors, textures };
-                let seen = SurfacePoint::new(&surfaces, &PastRay::from_eye(direction), &first, || None);
+                let seen =
+                    SurfacePoint::new(&surfaces, &PastRay::from_eye(direction), &first, || None);
                 let light = line.emission(seen.place, origin).unwrap();
                 let beta = seen.frame(&scenery.world).velocity().beta();
-                assert!((first.own_time - light.own_time).abs() < 1e-8, "{text}\n{first:?} {light:?}");
-                assert!((light.event.x - first.s * direction).length() < 1e-8, "{text}\n{first:?} {light:?}");
+                assert!(
+                    (first.own_time - light.own_time).abs() < 1e-8,
+                    "{text}\n{first:?} {light:?}"
+                );
+                assert!(
+                    (light.event.x - first.s * direction).length() < 1e-8,
+                    "{text}\n{first:?} {light:?}"
+                );
                 assert!((beta - light.velocity.beta()).length() < 1e-8, "{text}\n{beta} {light:?}");
                 let ratio = seen.doppler() / ugphysics::doppler_at(light.event.x, light.velocity);
                 assert!((ratio - 1.0).abs() < 1e-8, "{text}\n{ratio}");
@@ -191,9 +213,11 @@ fn closed_bodies_do_not_leak() {
     let (mut n_met, mut n_inside) = (0, 0);
     for kind in 0..12 {
         let motion = motion(&mut random, kind);
-        let text = format!("l 1; motion m {motion}; sphere 0 0 0 1 <m>; cam -ep 0 0 0.01 -vc 1 0 0;");
+        let text =
+            format!("l 1; motion m {motion}; sphere 0 0 0 1 <m>; cam -ep 0 0 0.01 -vc 1 0 0;");
         let scenery = Scenery::new(&text, 0.0, 0.038);
-        let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
+        let line =
+            scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
         let is_inside = |event: Event| {
             // Where no point of a turning body can be, there is none of the ball.
             let Ok((at, _)) = line.at_event(event) else { return Some(false) };
@@ -217,7 +241,11 @@ fn closed_bodies_do_not_leak() {
             };
             let step = Event { t: -direction.length(), x: direction };
             let hits = all_hits(&scenery, &ray(origin, step, Start::Event));
-            assert_eq!(hits.len() % 2 == 1, starts_inside, "{kind} {origin:?} {direction} {hits:?}");
+            assert_eq!(
+                hits.len() % 2 == 1,
+                starts_inside,
+                "{kind} {origin:?} {direction} {hits:?}"
+            );
             n_inside += usize::from(starts_inside);
             n_met += usize::from(!hits.is_empty());
         }
@@ -236,10 +264,13 @@ fn rays_to_the_eye_hit_what_curves_hit() {
         let motion = motion(&mut random, kind);
         let camera = format!("cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;");
         let text = format!("l 1; motion m {motion}; sphere 0 0 0 1 <m>; {camera}");
-        let scenery = Scenery::new(&text, random.between(-3.0, 3.0), *random.pick(&[0.067, 6e-3, 7e-4]));
-        let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
-        n_seen +=
-            u32::from(scenery.world.parts[0].motion.as_ref().is_some_and(|motion| motion.seen.is_some()));
+        let scenery =
+            Scenery::new(&text, random.between(-3.0, 3.0), *random.pick(&[0.067, 6e-3, 7e-4]));
+        let line =
+            scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
+        n_seen += u32::from(
+            scenery.world.parts[0].motion.as_ref().is_some_and(|motion| motion.seen.is_some()),
+        );
         let eye = Event { t: 0.0, x: DVec3::ZERO };
         for idx in 0..400 {
             let face = random.pick(&scenery.scene.faces);
@@ -261,11 +292,16 @@ fn rays_to_the_eye_hit_what_curves_hit() {
             if idx % 4 < 3 {
                 continue;
             }
-            let faces = |hits: &[Intersection]| hits.iter().map(|hit| hit.triangle.face).collect::<Vec<_>>();
+            let faces = |hits: &[Intersection]| {
+                hits.iter().map(|hit| hit.triangle.face).collect::<Vec<_>>()
+            };
             assert_eq!(faces(&seen), faces(&curved), "{kind}: {direction} {seen:?} {curved:?}");
             assert!(seen.iter().zip(&curved).all(|(a, b)| (a.s - b.s).abs() < 1e-9));
             let first = closest(&scenery, &ray(eye, step, Start::Eye));
-            assert_eq!(first.map(|first| first.s.to_bits()), seen.first().map(|first| first.s.to_bits()));
+            assert_eq!(
+                first.map(|first| first.s.to_bits()),
+                seen.first().map(|first| first.s.to_bits())
+            );
         }
     }
     assert!(n_met > 5000 && n_seen > 8, "{n_met} {n_seen}");

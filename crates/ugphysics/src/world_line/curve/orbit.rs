@@ -64,8 +64,10 @@ impl Orbit {
         let progress = rotation(self.axis, self.rate * gamma * own_time);
         let event = Event { t: gamma * own_time, x: self.center + progress * self.start };
         // A turn does not change the speed, whose square is below the limit.
-        let velocity = Velocity::from_proper(progress * self.velocity.proper()).unwrap_or(self.velocity);
-        let lag = rotation(self.axis, -self.velocity.gamma_minus_one() * gamma * self.rate * own_time);
+        let velocity =
+            Velocity::from_proper(progress * self.velocity.proper()).unwrap_or(self.velocity);
+        let lag =
+            rotation(self.axis, -self.velocity.gamma_minus_one() * gamma * self.rate * own_time);
         let scene_from_axes = Lorentz::boost(velocity) * Lorentz::rotation(lag);
         let acceleration = lag.conjugate() * (progress * self.initial_acceleration());
         (Pose { event, scene_from_axes, turn: DQuat::IDENTITY }, acceleration)

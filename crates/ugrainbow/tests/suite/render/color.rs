@@ -81,7 +81,10 @@ fn hues_and_wavelengths_are_interpolated_along_straight_lines() {
     assert_near(band("c p 1 340; c y 1 60;", "p", "y", &config, 0.5), pure(20.0));
     // Wavelengths in the file, also invisible ones: 300 and 900 nm have the mean 600.
     let files = Config { hue_scale: HueScale::Wavelengths, ..config };
-    assert_near(band("c u 1 300; c i 1 900;", "u", "i", &files, 0.5), pure(wavelength_to_hue(600.0)));
+    assert_near(
+        band("c u 1 300; c i 1 900;", "u", "i", &files, 0.5),
+        pure(wavelength_to_hue(600.0)),
+    );
     assert_near(band("c u 1 300; c i 1 900;", "u", "i", &files, 0.0), [0.0; 3]);
     // Saturation and value are interpolated as they are.
     let mid = Hsv { hue: 100.0, saturation: 0.6, value: 0.7 }.to_rgb();
@@ -100,7 +103,8 @@ fn grey_corners_take_the_hue_of_the_others() {
 #[test]
 fn faces_without_vertex_colours_have_their_own() {
     let (camera, config) = map(4, 4);
-    let text = |color: &str| format!("c g 1 120; c r 1 0; l 1; {SQUARE} f (a b c d) {color}; {camera}");
+    let text =
+        |color: &str| format!("c g 1 120; c r 1 0; l 1; {SQUARE} f (a b c d) {color}; {camera}");
     assert_eq!(draw(&text("g"), &config).pixel(1, 1), [0, 255, 0, 255]);
     assert_eq!(draw(&text(""), &config).pixel(1, 1), [255; 4]);
     let own = text("g").replace("4 0;", "4 0 r;");
@@ -111,7 +115,8 @@ fn faces_without_vertex_colours_have_their_own() {
 fn pixels_are_averaged_in_linear_light() {
     // White over the left half of every pixel of a column: half the light is level 188.
     let (camera, config) = map(8, 8);
-    let text = format!("l 1; v a -4 -4 0; v b .5 -4 0; v c .5 4 0; v d -4 4 0; f (a b c d); {camera}");
+    let text =
+        format!("l 1; v a -4 -4 0; v b .5 -4 0; v c .5 4 0; v d -4 4 0; f (a b c d); {camera}");
     for (samples, expected) in [(2, 188), (4, 188), (16, 188)] {
         let frame = draw(&text, &with(&config, |picture| picture.samples = samples));
         assert_eq!(frame.pixel(3, 3)[0], 255);
@@ -120,15 +125,19 @@ fn pixels_are_averaged_in_linear_light() {
     }
     // Over a background that is not black: (1 + decode(0.5)) / 2.
     let background = Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.5 });
-    let frame =
-        draw(&text, &with(&config, |picture| (picture.samples, picture.background) = (4, background)));
+    let frame = draw(
+        &text,
+        &with(&config, |picture| (picture.samples, picture.background) = (4, background)),
+    );
     let mean = srgb_encode(0.5 + 0.5 * srgb_decode(0.5));
     assert_eq!(frame.pixel(4, 3)[0], level(mean));
     assert_eq!(frame.pixel(7, 3)[0], 128);
     // Transparent: the colour of what is there, and how much of it.
     let frame = draw(
         &text,
-        &with(&config, |picture| (picture.samples, picture.background) = (4, Background::Transparent)),
+        &with(&config, |picture| {
+            (picture.samples, picture.background) = (4, Background::Transparent)
+        }),
     );
     assert!(!frame.is_opaque());
     assert_eq!(frame.pixel(3, 3), [255; 4]);

@@ -10,8 +10,10 @@ use crate::render::{assert_near, map, plain};
 fn orthographic_squares_are_where_they_should() {
     // 8 units over 16 pixels: x in −1…2 is columns 6…12, y in 0…3 is rows 2…8.
     let (camera, config) = map(16, 16);
-    let frame =
-        draw(&format!("l 1; v a -1 0 3; v b 2 0 3; v c 2 3 3; v d -1 3 3; f (a b c d); {camera}"), &config);
+    let frame = draw(
+        &format!("l 1; v a -1 0 3; v b 2 0 3; v c 2 3 3; v d -1 3 3; f (a b c d); {camera}"),
+        &config,
+    );
     for y in 0..16 {
         for x in 0..16 {
             let expected = if (6..12).contains(&x) && (2..8).contains(&y) { 255 } else { 0 };
@@ -23,7 +25,12 @@ fn orthographic_squares_are_where_they_should() {
 #[test]
 fn film_angles_and_size_agree() {
     #[track_caller]
-    fn check(camera: &str, options: CameraOptions, size: [u32; 2], expected: [std::ops::Range<u32>; 2]) {
+    fn check(
+        camera: &str,
+        options: CameraOptions,
+        size: [u32; 2],
+        expected: [std::ops::Range<u32>; 2],
+    ) {
         let config = with(&plain(size[0], size[1]), |picture| picture.camera = options);
         // A square of side 2, four units ahead.
         let text = format!(
@@ -45,9 +52,19 @@ fn film_angles_and_size_agree() {
     check("-fs 2 9 -fl 1", none(), [32, 32], [12..20, 12..20]);
     check("-fs 6 9 -fl 3", none(), [32, 32], [12..20, 12..20]);
     check("-va 90 90 -fl 7", none(), [32, 32], [12..20, 12..20]);
-    check("-va 1 1", CameraOptions { view_angle: Some((90.0, None)), ..none() }, [32, 16], [12..20, 4..12]);
+    check(
+        "-va 1 1",
+        CameraOptions { view_angle: Some((90.0, None)), ..none() },
+        [32, 16],
+        [12..20, 4..12],
+    );
     // Both angles: pixels need not be square.
-    check("", CameraOptions { view_angle: Some((90.0, Some(90.0))), ..none() }, [32, 16], [12..20, 6..10]);
+    check(
+        "",
+        CameraOptions { view_angle: Some((90.0, Some(90.0))), ..none() },
+        [32, 16],
+        [12..20, 6..10],
+    );
     // The upper-right quarter of the film.
     check("-va 90 90 -ph .5 .5 1 1", none(), [32, 32], [0..8, 24..32]);
     check("-va 90 90 -ph 0 .5 1 1", none(), [32, 16], [12..20, 12..16]);
@@ -58,7 +75,12 @@ fn film_angles_and_size_agree() {
         [32, 32],
         [12..20, 12..20],
     );
-    check("-va 90 90", CameraOptions { is_orthographic: true, ..none() }, [32, 32], [12..20, 12..20]);
+    check(
+        "-va 90 90",
+        CameraOptions { is_orthographic: true, ..none() },
+        [32, 32],
+        [12..20, 12..20],
+    );
 }
 
 /// A floor that passes under the eye and behind it, against a ray through each pixel.
@@ -67,8 +89,9 @@ fn a_floor_under_the_eye_is_cut_and_stays_in_perspective() {
     let (width, height) = (64, 48);
     // Linear in the plane, from 0.19 to 0.86.
     let value = |x: f64, y: f64| 0.5 + 0.004 * x + 0.003 * y;
-    let corner =
-        |name: &str, x: f64, y: f64| format!("c k{name} {}; v {name} {x} {y} 0 k{name};", value(x, y));
+    let corner = |name: &str, x: f64, y: f64| {
+        format!("c k{name} {}; v {name} {x} {y} 0 k{name};", value(x, y))
+    };
     let text = format!(
         "l 1; {} {} {} {} f (a b c d); cam -ep 1 2 3 -vc 1 6 2 -va 90 90;",
         corner("a", -40.0, -50.0),
@@ -87,7 +110,8 @@ fn a_floor_under_the_eye_is_cut_and_stays_in_perspective() {
             let down = ((f64::from(y) + 0.5) * 2.0 - f64::from(height)) / f64::from(width);
             let ray = forward + across * right - down * up;
             let hit = eye - ray * (eye.z / ray.z);
-            let is_floor = ray.z < 0.0 && (-40.0..45.0).contains(&hit.x) && (-50.0..60.0).contains(&hit.y);
+            let is_floor =
+                ray.z < 0.0 && (-40.0..45.0).contains(&hit.x) && (-50.0..60.0).contains(&hit.y);
             let expected = if is_floor { value(hit.x, hit.y) } else { 0.0 };
             n_floor += u32::from(is_floor);
             assert_near(frame.pixel(x, y), [expected; 3]);

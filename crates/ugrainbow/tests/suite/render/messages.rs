@@ -26,8 +26,16 @@ fn sizes_that_do_not_fit_are_refused() {
         );
         check([width, height], 4, &message);
     }
-    check([8, 8], 17, "17 x 17 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa");
-    check([8, 8], 0, "0 x 0 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa");
+    check(
+        [8, 8],
+        17,
+        "17 x 17 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa",
+    );
+    check(
+        [8, 8],
+        0,
+        "0 x 0 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa",
+    );
 }
 
 #[test]
@@ -99,7 +107,11 @@ fn pictures_in_which_nothing_is_seen_say_why() {
             "everything is seen edge-on or smaller than a sample; try another -ep or a narrower -va",
         ),
     ] {
-        check(&format!("{square}; cam {camera};"), &config, &[&format!("nothing is drawn: {note}")]);
+        check(
+            &format!("{square}; cam {camera};"),
+            &config,
+            &[&format!("nothing is drawn: {note}")],
+        );
     }
     let wavelengths = Config { hue_scale: HueScale::Wavelengths, ..config.clone() };
     let out_of_sight = |what: &str| {
@@ -113,7 +125,11 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     // The white part of a pale colour stays visible.
     let moved = "c far .5 900 .8; v e 30 0 0; v f 31 0 0; v g 30 1 0; f (e f g) far";
     let grey = out_of_sight("all that is in the picture is black or grey");
-    check(&format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"), &wavelengths, &[&grey]);
+    check(
+        &format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"),
+        &wavelengths,
+        &[&grey],
+    );
     // The picture is 40 tan 2.5° = 1.746 wide, so 1.373 / 1.746 of it is out of range, then 0.373.
     let parts = |near: f64| {
         format!(
@@ -146,7 +162,11 @@ fn pictures_in_which_nothing_is_seen_say_why() {
             "max intensity is 1.25, clip to 1.0",
         ],
     );
-    check(&format!("{square}; l 1; cam -ep 1 0 20;"), &config, &["max intensity is 2.0, clip to 1.0"]);
+    check(
+        &format!("{square}; l 1; cam -ep 1 0 20;"),
+        &config,
+        &["max intensity is 2.0, clip to 1.0"],
+    );
     check(
         &format!("c clear 1 0 1 .5; {SQUARE} f (a b c d) clear; cam -ep 1 0 20;"),
         &config,
