@@ -1,29 +1,30 @@
-//! Lines with code, apart for programs and for tests.
+//! Characters of code without blanks and comments, which no format changes, apart for programs and for
+//! tests.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// Lines that hold more than comments.
+/// Characters of tokens.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Lines {
+pub struct Characters {
     /// What is compiled into libraries and programs.
     pub production: usize,
     /// Items under `#[cfg(test)]`, and all files of tests.
     pub test: usize,
 }
 
-impl std::ops::AddAssign for Lines {
+impl std::ops::AddAssign for Characters {
     fn add_assign(&mut self, other: Self) {
         self.production += other.production;
         self.test += other.test;
     }
 }
 
-/// The lines of a folder with a manifest. `files`: its sources, and their text; all of `tests/` and
+/// The characters of a folder with a manifest. `files`: its sources, and their text; all of `tests/` and
 /// `benches/` are tests, and examples are neither.
-pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Lines {
+pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Characters {
     let counted: Vec<(&PathBuf, Counted)> = (files.iter())
         .map(|(path, text)| {
             (path, count(text).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
@@ -32,7 +33,7 @@ pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Lines {
     let modules_of_tests: Vec<PathBuf> = (counted.iter())
         .flat_map(|(path, file)| file.test_modules.iter().map(|name| below(path).join(name)))
         .collect();
-    let mut sum = Lines::default();
+    let mut sum = Characters::default();
     for (path, file) in counted {
         let place = path.strip_prefix(folder).unwrap_or(path);
         let is_test = |module: &PathBuf| path.with_extension("").starts_with(module);
@@ -43,9 +44,9 @@ pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Lines {
             || place.starts_with("benches")
             || modules_of_tests.iter().any(is_test)
         {
-            sum.test += file.lines.production + file.lines.test;
+            sum.test += file.characters.production + file.characters.test;
         } else {
-            sum += file.lines;
+            sum += file.characters;
         }
     }
     sum
@@ -61,28 +62,18 @@ fn below(path: &Path) -> PathBuf {
 
 #[derive(Default)]
 struct Counted {
-    lines: Lines,
+    characters: Characters,
     /// Names of modules under `#[cfg(test)]` whose text is in a file of its own.
     test_modules: Vec<String>,
 }
 
 fn count(text: &str) -> Result<Counted, proc_macro2::LexError> {
-    let mut found = Found::default();
-    found.read(text.parse()?, false);
-    let test = found.test.difference(&found.production).count();
-    let lines = Lines { production: found.production.len(), test };
-    Ok(Counted { lines, test_modules: found.test_modules })
+    let mut counted = Counted::default();
+    counted.read(text.parse()?, false);
+    Ok(counted)
 }
 
-/// The numbers of lines with tokens.
-#[derive(Default)]
-struct Found {
-    production: BTreeSet<usize>,
-    test: BTreeSet<usize>,
-    test_modules: Vec<String>,
-}
-
-impl Found {
+impl Counted {
     fn read(&mut self, tokens: TokenStream, is_test: bool) {
         let tokens: Vec<TokenTree> = tokens.into_iter().collect();
         let mut at = 0;
@@ -112,13 +103,14 @@ impl Found {
             }
             match &tokens[at] {
                 TokenTree::Group(group) => {
-                    self.mark(group.span_open(), is_test_here);
+                    let n_delimiters = if group.delimiter() == Delimiter::None { 0 } else { 2 };
+                    self.add(n_delimiters, is_test_here);
                     self.read(group.stream(), is_test_here);
-                    self.mark(group.span_close(), is_test_here);
                     is_test_item &= group.delimiter() != Delimiter::Brace;
                 }
                 token => {
-                    self.mark(token.span(), is_test_here);
+                    let text = token.to_string();
+                    self.add(text.chars().filter(|c| !c.is_whitespace()).count(), is_test_here);
                     is_test_item &= !matches!(token, TokenTree::Punct(end) if end.as_char() == ';');
                 }
             }
@@ -126,9 +118,9 @@ impl Found {
         }
     }
 
-    fn mark(&mut self, span: Span, is_test: bool) {
-        let lines = if is_test { &mut self.test } else { &mut self.production };
-        lines.extend(span.start().line..=span.end().line);
+    fn add(&mut self, n: usize, is_test: bool) {
+        let sum = &mut self.characters;
+        *(if is_test { &mut sum.test } else { &mut sum.production }) += n;
     }
 }
 
