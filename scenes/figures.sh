@@ -37,18 +37,14 @@ announce() {
     printf '%3d of %d  %s.png\n' "$(wc -l < "$out/rows/drawn")" "$n_figures" "$1"
 }
 
-# pot [VELOCITY]: the teapot under the three lights of Chang, Lai and Chen 1996.
-pot() {
-    sed '/^l /d' teapot.ug
-    printf 'l 1.8 %s ;' "0 -1 0 ${1-}" "1 1 0 ${1-}" "-1 1 0 ${1-}"
-}
-
-# flyby NAME SCENE STOPS: four moments at 0.95c with changes of brightness, by rays
+# flyby NAME [OPTION...]: four moments of the scene on standard input, later ones below, by rays
 flyby() {
-    local name=$1 rows=() time row
+    local name=$1 scene=$out/rows/$1.ug rows=() time row
+    shift
+    cat > "$scene"
     for time in 07 12 17 22; do
         row=$out/rows/$name-$time.png
-        ugphoton -look 1988 -qt "${backdrop[@]}" -vel .95 0 0 -ti $time --no-doppler -va 90 -ex "$3" -tc filmic -sz "$width" $((height / 4 - 3)) -fo "$row" "$2"
+        ugphoton -look 1988 -qt --no-doppler "${backdrop[@]}" -ti $time -va 90 -sz "$width" $((height / 4 - 3)) "$@" -fo "$row" "$scene"
         rows+=("$row")
     done
     tile "$out/$name.png" 1 "${rows[@]}"
@@ -123,7 +119,7 @@ warp() {
 }
 
 # The functions of the gallery's page write variants of scenes.
-page() { sed -n 's/^    \([a-z_]*() {.*\)/\1/p' ../docs/gallery.md; }
+eval "$(sed -n 's/^    \([a-z_]*() {.*\)/\1/p' ../docs/gallery.md)"
 
 # Nguyen 1988, figure 1: the rainbow.
 in_space draw nguyen-01-rainbow -wi rainbow.ug
@@ -131,13 +127,13 @@ in_space draw nguyen-01-rainbow -wi rainbow.ug
 # Nguyen 1988, figure 2: the ship at rest and at 0.3, 0.6 and 0.9c. Then in colour: at 0.6c the
 # stern still comes nearer while the bow goes away; head-on, much above 0.2c much of the ship
 # would shine where no eye sees.
-uglorentz ship.ug | draw nguyen-02a-rest
-uglorentz -in -vel .3 0 0 ship.ug | draw nguyen-02b-0.3c
-uglorentz -in -vel .6 0 0 ship.ug | draw nguyen-02c-0.6c
-uglorentz -in -vel .9 0 0 ship.ug | draw nguyen-02d-0.9c
-uglorentz -in -vel .6 0 0 ship.ug | ugdoppler -qt | draw nguyen-02e-0.6c-colours
-uglorentz -in -vel 0 -.2 0 ship.ug | ugdoppler -qt | draw nguyen-02f-approaching-0.2c-colours
-uglorentz -in -vel 0 .2 0 ship.ug | ugdoppler -qt | draw nguyen-02g-receding-0.2c-colours
+uglorentz ship.ug | draw nguyen-02a-rest -va 46
+uglorentz -in -vel .3 0 0 ship.ug | draw nguyen-02b-0.3c -va 46
+uglorentz -in -vel .6 0 0 ship.ug | draw nguyen-02c-0.6c -va 46
+uglorentz -in -vel .9 0 0 ship.ug | draw nguyen-02d-0.9c -va 46
+uglorentz -in -vel .6 0 0 ship.ug | ugdoppler -qt | draw nguyen-02e-0.6c-colours -va 46
+uglorentz -in -vel 0 -.2 0 ship.ug | ugdoppler -qt | draw nguyen-02f-approaching-0.2c-colours -va 46
+uglorentz -in -vel 0 .2 0 ship.ug | ugdoppler -qt | draw nguyen-02g-receding-0.2c-colours -va 46
 
 if [ $paper = nguyen ]; then
     printf 'The pictures are in %s\n' "$out"
@@ -175,28 +171,31 @@ for speed in .95 .999; do
 done
 
 # Figures 11 and 12: the street at rest, approaching, receding; and in colour. Wavelengths (-gw)
-# continue beyond the range of hues, so colours fade evenly at the ends of the visible spectrum.
+# continue beyond the range of hues, so colours fade evenly at the ends of the visible spectrum. A plain
+# reaches to the horizon of the street that recedes.
 uglorentz street.ug | draw chang-11-rest
 uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | draw chang-12a-in-0.99c
-uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | draw chang-12b-out-0.99c
+on_plain | uglorentz -vel 0 .99 0 -ep 0 -250 3 | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
 # Figures 13 and 15, with shadows: the teapot's brightness under three distant lights: moving with the
-# teapot, at rest with the viewer, and, in the teapot's rest frame, moving towards it.
-pot > "$out/rows/pot.ug"
+# teapot, at rest with the viewer, and, in the teapot's rest frame, moving towards it. The lights are level
+# with the tiles and do not reach them: tiles have a brightness of their own.
+pot '' > "$out/rows/pot.ug"
 pot '<0 0 0>' > "$out/rows/pot-lights-at-rest.ug"
 pot '<-0.95 0 0>' > "$out/rows/pot-lights-coming.ug"
-flyby chang-13-lights-along "$out/rows/pot.ug" .5
-flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" 3
+on_tiles .95 "$out/rows/pot.ug" 0 ' .55' | flyby chang-13-lights-along -ex .5 -tc filmic
+on_tiles .95 "$out/rows/pot-lights-at-rest.ug" 0 ' .14' | flyby chang-15a-lights-at-rest -ex 4 -tc filmic
 shine chang-13-rest -ex .5 "$out/rows/pot.ug"
 shine chang-15b-lights-coming -ex -5 "$out/rows/pot-lights-coming.ug"
 
 # Figures 14 and 16, with shadows: the brightness of the street, approaching and receding, under
-# lights at rest with the street and with the viewer. Those approached have one exposure. The street
-# that recedes is darker by a factor of 14, so it is exposed six stops more.
+# lights at rest with the street and with the viewer, all with one exposure. The street that recedes is
+# darker by a factor of 14, so it is drawn again seven and a half stops brighter.
 sed 's/^\(l .*\);/\1 <0 0 0> ;/' street.ug > "$out/rows/street-lights-at-rest.ug"
 shine chang-14a-in-0.99c -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 street.ug
-shine chang-14b-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 -ex 6 street.ug
+shine chang-14b-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 -ex -1.55 <(on_plain)
+shine chang-14c-out-0.99c-brighter -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 -ex 6 <(on_plain)
 shine chang-16-lights-at-rest -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 "$out/rows/street-lights-at-rest.ug"
 
 # Figure 17: a surface that reflects three narrow bands around 460, 540 and 600 nm, under lamps with
@@ -205,10 +204,10 @@ shine chang-16-lights-at-rest -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 "$out/rows/stre
 # exposure.
 bands='c_refl 452 0 460 .3 468 0 532 0 540 .7 548 0 592 0 600 1 608 0 ; c_spd even 100 1 10000 1 ;'
 rows=()
-for time in 00 09 17 28; do
+for time in 02 09 16 22; do
     row=$out/rows/bands-$time.png
     sed "s/^c .*/$bands/; s/^\(l .*\);/\1 even ;/" teapot.ug | uglorentz -vel .5 0 0 -ti $time | ugdoppler -qt -sp -ir |
-        ugrainbow -qt "${backdrop[@]}" -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+        ugrainbow -qt -ex auto -sky stars -va 70 -sz "$width" $((height / 4 - 3)) -fo "$row"
     rows+=("$row")
 done
 tile "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
@@ -259,7 +258,6 @@ uglorentz lamp.ug | ugdoppler -qt | in_space draw lamp-at-rest
 uglorentz lamp.ug | ugdoppler -qt -li | in_space draw lamp-moving
 
 # With rays, by the gallery's scenes.
-eval "$(page)"
 
 # Nguyen 1988, figures 3 and 4: reflections; refractions and reflections.
 for speed in 0.0 0.3 0.6 0.9; do
@@ -267,17 +265,14 @@ for speed in 0.0 0.3 0.6 0.9; do
     trace "nguyen-04-refractions-${speed}c" -in <(behind_a_globe $speed)
 done
 
-# Chang, Lai and Chen 1996, figures 9 and 12 with shadows, and 18: a shadow that lags.
-for scene in teapot cubes sphere; do
-    trace "chang-09-rays-$scene-rest" -in $scene.ug
-    trace "chang-09-rays-$scene-0.95c" -in -vel .95 0 0 $scene.ug
+# Chang, Lai and Chen 1996, figures 9 to 12 with shadows, over tiles at rest, and 18: a shadow that lags.
+for body in 'teapot.ug 0' 'cubes.ug -1.5' 'sphere.ug -1'; do
+    for speed in 0.0 0.95; do trace "chang-09-rays-${body%.ug*}-${speed}c" -in <(on_tiles $speed $body); done
 done
-for speed in 0.95 0.999; do
-    for time in 07 12 17 22; do trace "chang-10-rays-${speed}c-$time" -vel $speed 0 0 -ti $time -va 90 teapot.ug; done
-done
+for speed in 0.95 0.999; do on_tiles $speed teapot.ug 0 | flyby "chang-10-rays-${speed}c" --no-flux; done
 trace chang-11-rays-rest street.ug
 trace chang-12a-rays-in-0.99c -vel 0 -.99 0 -ep 0 40 3 street.ug
-trace chang-12b-rays-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 street.ug
+trace chang-12b-rays-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 <(on_plain)
 for speed in 0.0 0.95; do trace "chang-18-shadow-${speed}c" -in <(over_floor $speed); done
 
 # Howard, Dance and Kitchen 1995, figures 6 to 8: an infinite plane ahead; a grid behind and beside.
@@ -318,9 +313,12 @@ cd "$out"
 sheet nguyen 'H. P. Nguyen, Implementation of Two Relativistic Renderers, 1988' \
     nguyen-3.3.*.png nguyen-0{1,2,3,4}{[a-z]-,-}*.png
 sheet chang 'M.-C. Chang, F. Lai and W.-C. Chen 1996' \
-    chang-{01,09,10,11,12,13,14,15,16,17,18}{[a-z]-,-}*.png
+    chang-01-*.png chang-09-rays-{teapot,cubes,sphere}-{0.0,0.95}c.png chang-10-rays-{0.95,0.999}c.png \
+    chang-11-rays-*.png chang-12{a-rays,b-rays,c}-*.png chang-13-{rest,lights-along}.png \
+    chang-14{a,b,c}-*.png chang-15{a,b}-*.png chang-1{6,7}-*.png chang-18-shadow-{0.0,0.95}c.png
 sheet howard 'A. Howard, S. Dance and L. Kitchen 1995' \
-    howard-0{2,3,4,5,6,7,8}{[a-z]-,-}*.png howard-shutter-*.png
+    howard-0{2,3}-*.png howard-0{4,5}{a,b,c}-*.png howard-06-plane-{0.0,0.5,0.9}c.png \
+    howard-0{7-behind,8-beside}-{0.5,0.9}c.png howard-shutter-{pinhole,film}.png
 sheet weiskopf 'D. Weiskopf 2000' weiskopf-0{1,3}{[a-z]-[0-9r],[a-z]-w,-}*.png
 sheet li 'J. Li, H. Shum and Q. Peng 2001' li-0{5,6}{[a-z]-,-}*.png
 sheet ours 'Other figures' stars-{0.0,0.5,0.9,0.99}c.png stars-dome-{0.0,0.5,0.9,0.99}c.png {lattice,halves,dice,traffic,lamp,glass,water}*.png
