@@ -11,7 +11,7 @@ use crate::spectrum::weighted_daylight::WeightedDaylight;
 /// Step of a table in ln D. A step shifts wavelengths by one percent, about 5 nm.
 ///
 /// Interpolation errors, measured on 125 surfaces from greys to the primaries and on black bodies,
-/// are below 8·10⁻⁴ of the largest of X, Y and Z: a colour difference ΔE*ab below 0.2. Part of that
+/// are below 2·10⁻³ of the largest of X, Y and Z: a colour difference ΔE*ab below 0.4. Part of that
 /// comes from summing over whole nanometres, across the corners of the piecewise linear daylight
 /// table.
 pub const LN_STEP: f64 = 0.01;

@@ -43,6 +43,7 @@ mod radiance;
 mod reflectance;
 mod samples;
 mod smooth_curve;
+mod uncertainty;
 mod upsampling;
 mod weighted_daylight;
 
@@ -55,3 +56,4 @@ pub use observer::{integrate, observer};
 pub use radiance::Spectrum;
 pub use reflectance::Reflectance;
 pub use smooth_curve::SmoothCurve;
+pub use uncertainty::assumed_difference;

@@ -14,11 +14,7 @@ const DOPPLER: [f64; 4] = [1.05, 1.2, 1.3, 1.5];
 /// L*, a*, b* of X, Y, Z over those of white.
 fn lab(parts: [f64; 3]) -> [f64; 3] {
     let root = |part: f64| {
-        if part > 216.0 / 24389.0 {
-            libm::cbrt(part)
-        } else {
-            part * 841.0 / 108.0 + 4.0 / 29.0
-        }
+        if part > 216.0 / 24389.0 { libm::cbrt(part) } else { part * 841.0 / 108.0 + 4.0 / 29.0 }
     };
     let [x, y, z] = parts.map(root);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
