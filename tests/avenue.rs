@@ -44,3 +44,31 @@ fn measured_spectra_change_surfaces_as_the_table_says() {
     }
     assert_eq!(n_rows, 9);
 }
+
+/// A grey and one with a little less red and blue; a measured roof and its colour at rest. At D =
+/// 1.3 they were 38 and 50 apart while the reflectance of a colour had a notch in deep red. The
+/// roof still differs by its infrared, which is darker than that of other surfaces of its colour.
+#[test]
+fn colours_that_are_alike_at_rest_look_alike_in_motion() {
+    let text = "c_rgb grey .7354 .7354 .7354; c_rgb greenish .7188 .7354 .7188;
+        c_refl metal; c_rgb roof .451 .508 .428;";
+    let source = ugparse::Source::new("alike.ug", text);
+    let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+    let colors: Vec<_> = (0..4)
+        .map(|row| SpectralColor::new(&scene, Some(ugscene::ColorId::from_index(row))))
+        .collect();
+    let white = Spectrum::from_linear_srgb([1.0; 3]);
+    for (doppler, most) in [(1.0, 1.0), (1.1, 3.0), (1.2, 10.0), (1.3, 16.0)] {
+        let seen: Vec<_> = colors
+            .iter()
+            .map(|color| lab(color.spectrum().shifted(doppler), white.shifted(doppler)))
+            .collect();
+        for (pair, most) in seen.chunks(2).zip([6.0, most]) {
+            let apart = (0..3)
+                .map(|at| (pair[0][at] - pair[1][at]) * (pair[0][at] - pair[1][at]))
+                .sum::<f64>()
+                .sqrt();
+            assert!(apart < most, "D = {doppler}: {apart}");
+        }
+    }
+}

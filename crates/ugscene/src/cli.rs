@@ -217,8 +217,8 @@ pub struct ShiftArgs {
     /// Infrared of surfaces of which only the colour is known: measured, constant [default:
     /// measured]
     ///
-    /// With -sp. measured: what measured surfaces of this colour reflect. constant: the reflectance
-    /// at 780 nm goes on. Spectra that are given (c_refl) need no rule.
+    /// With -sp. measured: what measured surfaces of this colour reflect. constant: that of
+    /// the red channel. Spectra that are given (c_refl) need no rule.
     #[arg(long, value_name = "RULE",
           value_parser = one_of("rules", InfraredRule::ALL.map(|rule| (rule.name(), rule))))]
     pub infrared_rule: Option<InfraredRule>,

@@ -1,25 +1,148 @@
-//! The curve that reflectances are made of.
+//! The curve that reflectances are made of: steps from wavelength to wavelength as small as the
+//! colour allows.
+//!
+//! With x the reflectance before it is bounded, the curve minimises ∫ρ (dx/dλ)² dλ for a given red,
+//! green and blue and a given value at 780 nm. ρ is large where measured reflectances change
+//! little. The solution is a sum of fixed functions, one for each condition.
 
-/// The range of the curve, nm; outside it the reflectance is constant.
+use std::sync::LazyLock;
+
+use crate::spectrum::infrared::smooth_step;
+use crate::spectrum::weighted_daylight::WeightedDaylight;
+use crate::xyz_to_linear_srgb;
+
+/// The range of the curve, nm; outside it the reflectance is constant, or as in infrared.
 pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 
-/// The coefficients a, b, c of a curve, a sigmoid of a quadratic: S(x) = 1/2 + x/(2√(1 + x²)) with
-/// x = a + b t + c (3t² − 1)/2, and t from −1 at 380 nm to 1 at 780 nm.  Eq. (P20)
+/// Nanometres of the curve.
+pub(crate) const N_NM: usize = 401;
+
+/// Functions that a curve is a sum of: 1, two that go over to infrared, and one for each channel.
+pub(crate) const N_BASIS: usize = 6;
+
+/// The amounts that are those of the channels.
+pub(crate) const N_FIXED: usize = N_BASIS - 3;
+
+/// ln ρ every 50 nm from 380 to 780 nm, fitted by docs/physics/infrared.py.
+const LN_ROUGHNESS: [f64; 9] = [-0.86, 5.36, -1.62, -1.02, -3.48, -0.84, -2.93, 6.0, 0.0];
+
+/// The power of the way from 380 to 780 nm by which greys go over to their infrared level.
+const RISE: f64 = 8.3;
+
+/// Where foliage goes over to its infrared level, nm: the red edge of chlorophyll.
+const RED_EDGE_NM: [f64; 2] = [690.0, 750.0];
+
+/// The half-widths of the bounds at 0 and at the largest reflectance, in units of the largest
+/// channel.
+const SOFT: f64 = 0.02;
+
+/// A curve in units of the largest channel of its colour: a sum of fixed functions of the
+/// wavelength, bounded.  Eq. (P20)
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Coefficients(pub [f64; 3]);
+pub(crate) struct Curve {
+    /// The amounts of the functions of [`basis`].
+    pub amounts: [f64; N_BASIS],
+    /// The bound.
+    pub most: f64,
+}
 
-impl Coefficients {
+impl Curve {
+    /// The curve from `visible` to `infrared` without regard to the colour, as far as it is
+    /// foliage by its red edge.
+    pub fn between(visible: f64, infrared: f64, foliage: f64, most: f64) -> Self {
+        let [from, to] = [visible, infrared].map(|value| unbounded(value, most));
+        let rise = to - from;
+        Self { amounts: [from, rise * (1.0 - foliage), rise * foliage, 0.0, 0.0, 0.0], most }
+    }
+
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        let [_, t, quadratic] = Self::basis(wavelength_nm);
-        let [a, b, c] = self.0;
-        let x = a + b * t + c * quadratic;
-        0.5 + 0.5 * x / (1.0 + x * x).sqrt()
+        let at = (wavelength_nm - CURVE_NM[0]).clamp(0.0, (N_NM - 1) as f64);
+        let row = (at as usize).min(N_NM - 2);
+        let part = at - row as f64;
+        let [low, high] = [row, row + 1].map(|row| self.argument(&basis()[row]));
+        bounded(low + part * (high - low), self.most).0
     }
 
-    /// The Legendre polynomials P₀, P₁, P₂ at t. They are orthogonal, so the equations for the
-    /// coefficients are better conditioned than with powers of t.
-    pub fn basis(wavelength_nm: f64) -> [f64; 3] {
-        let t = (wavelength_nm - 580.0) / 200.0;
-        [1.0, t, 1.5 * t * t - 0.5]
+    fn argument(&self, basis: &[f64; N_BASIS]) -> f64 {
+        self.amounts.iter().zip(basis).map(|(amount, value)| amount * value).sum()
     }
+}
+
+/// x where it is far from 0 and from the bound `most`, and smoothly held between them; with its
+/// derivative.
+pub(crate) fn bounded(x: f64, most: f64) -> (f64, f64) {
+    let behind = x - most;
+    let (low, high) = ((x * x + SOFT * SOFT).sqrt(), (behind * behind + SOFT * SOFT).sqrt());
+    (0.5 * (most + low - high), 0.5 * (x / low - behind / high))
+}
+
+/// The inverse of [`bounded`] between the bounds.
+fn unbounded(value: f64, most: f64) -> f64 {
+    // x − most/2 is on a hyperbola of which (0, SOFT) and (most, SOFT) are the foci.
+    let half = 0.5 * most;
+    half + (value - half) * (1.0 + SOFT * SOFT / (value * (most - value))).sqrt()
+}
+
+/// The values of the functions at each nanometre: 1, the rise of greys, that of foliage, and one
+/// for each channel, which adds 1 to it and nothing to the others.
+pub(crate) fn basis() -> &'static [[f64; N_BASIS]; N_NM] {
+    static BASIS: LazyLock<Box<[[f64; N_BASIS]; N_NM]>> = LazyLock::new(|| Box::new(new_basis()));
+    &BASIS
+}
+
+fn new_basis() -> [[f64; N_BASIS]; N_NM] {
+    let light = WeightedDaylight::new(1.0);
+    // Red, green and blue of each nanometre; below 380 nm the curve is constant.
+    let weights: [[f64; 3]; N_NM] = std::array::from_fn(|row| {
+        let first = if row == 0 { light.ultraviolet } else { [0.0; 3] };
+        xyz_to_linear_srgb(std::array::from_fn(|i| light.inside[i][row] + first[i]))
+    });
+    // The minimum is where ρ dx/dλ falls by the weight of a channel at each nanometre.
+    let mut functions = [[0.0; 3]; N_NM];
+    let mut steps = [[0.0; 3]; N_NM];
+    let mut sum = [0.0; 3];
+    for row in 0..N_NM - 1 {
+        let knot = (row as f64 + 0.5) / 50.0;
+        let from = knot as usize;
+        let part = knot - from as f64;
+        let ln = LN_ROUGHNESS[from] + part * (LN_ROUGHNESS[from + 1] - LN_ROUGHNESS[from]);
+        for i in 0..3 {
+            sum[i] += weights[row][i];
+            steps[row][i] = sum[i] * libm::exp(-ln);
+        }
+    }
+    for row in (0..N_NM - 1).rev() {
+        functions[row] = std::array::from_fn(|i| functions[row + 1][i] + steps[row][i]);
+    }
+    // The mixture of them that is 1 in one channel.
+    let gram: [[f64; 3]; 3] = std::array::from_fn(|of| {
+        std::array::from_fn(|channel| {
+            (0..N_NM).map(|row| functions[row][of] * weights[row][channel]).sum()
+        })
+    });
+    let inverse = inverse(gram);
+    std::array::from_fn(|row| {
+        let way = row as f64 / (N_NM - 1) as f64;
+        let of = |channel: usize| -> f64 {
+            (0..3).map(|k| inverse[channel][k] * functions[row][k]).sum()
+        };
+        [
+            1.0,
+            libm::pow(way, RISE),
+            smooth_step(CURVE_NM[0] + row as f64, RED_EDGE_NM),
+            of(0),
+            of(1),
+            of(2),
+        ]
+    })
+}
+
+/// The inverse of a regular matrix.
+fn inverse(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let cofactor = |i: usize, j: usize| {
+        let [a, b, c, d] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+    std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant))
 }

@@ -2,13 +2,16 @@
 
 use std::sync::LazyLock;
 
+use crate::spectrum::curve::CURVE_NM;
+use crate::spectrum::foliage;
+
 /// What a surface of a known colour reflects beyond the visible range.  Eq. (P20)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InfraredRule {
     /// As measured surfaces of this colour do.
     #[default]
     Measured,
-    /// As the curve of its colour at 780 nm.
+    /// As the red channel of its colour, at which the curve ends at 780 nm.
     Constant,
 }
 
@@ -24,20 +27,22 @@ impl InfraredRule {
         }
     }
 
-    /// The part of the curve of a colour in the reflectance: less than 1 beyond 700 nm.
-    pub(crate) fn visible_part(self, wavelength_nm: f64) -> f64 {
+    /// The reflectances at the wavelengths of the levels of a surface with this linear red, green
+    /// and blue.
+    pub(crate) fn levels(self, rgb: [f64; 3]) -> [f64; N_LEVELS] {
         match self {
-            Self::Measured => parts(wavelength_nm).0,
-            Self::Constant => 1.0,
+            Self::Measured => levels(rgb),
+            Self::Constant => {
+                let largest = rgb[0].max(rgb[1]).max(rgb[2]);
+                // The curve is above 0.
+                [rgb[0].max(1e-4 * largest).max(0.0); N_LEVELS]
+            }
         }
     }
 }
 
-/// Where the curve of the colour goes over into the infrared levels, nm.
-const JOINT_NM: [f64; 2] = [700.0, 780.0];
-
-/// Beyond this wavelength, nm, the reflectance is not that of the curve alone.
-pub(crate) const FIRST_NM: f64 = JOINT_NM[0];
+/// Beyond this wavelength, nm, the reflectance is that of the levels.
+pub(crate) const FIRST_NM: f64 = CURVE_NM[1];
 
 /// Number of infrared levels.
 pub(crate) const N_LEVELS: usize = 4;
@@ -48,48 +53,51 @@ const LEVELS_NM: [f64; N_LEVELS] = [845.0, 1150.0, 1640.0, 2200.0];
 /// For each level, the coefficients of a fit to measured surfaces of 23 kinds,
 /// docs/physics/infrared.py.
 const FIT: [[f64; 3]; N_LEVELS] =
-    [[0.9, -1.06, 1.2], [0.5, -0.12, 1.36], [-0.25, 1.32, 0.81], [0.48, 2.54, -0.3]];
+    [[0.9, -1.06, 1.2], [1.28, 0.05, 1.88], [0.03, -0.05, 2.14], [0.06, 1.85, 0.63]];
+
+/// Keep the infrared of dark saturated colours alike: for each level, an amount of white that is
+/// added to a colour before its channels are compared.
+const WHITE: [f64; N_LEVELS] = [0.005, 0.175, 0.175, 0.175];
 
 /// Keeps the infrared of dark surfaces in proportion to their colour.
 const SOFT: f64 = 0.03;
 
 /// The reflectances at the wavelengths of the levels of a surface with this linear red, green and
-/// blue, m the largest: m ((m + e)/(1 + e))^(p − 1) with p = 2^(−Σ k (1 − c/m)). Greys stay grey,
-/// white stays white, and no level is above 1, or m if this is more.
+/// blue, m the largest: m ((m + e)/(1 + e))^(p − 1) with p = 2^(−Σ k (m − c)/(m + w)), and as far
+/// as the colour is that of [foliage], what foliage reflects. Greys stay grey, white stays white,
+/// and no level is above 1, or m if this is more.
 pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
     let largest = rgb[0].max(rgb[1]).max(rgb[2]);
     if !(largest > 0.0 && largest < 1.0) {
         return [largest.max(0.0); N_LEVELS];
     }
-    let lacks = rgb.map(|channel| 1.0 - channel.max(0.0) / largest);
-    FIT.map(|[red, green, blue]| {
-        let exponent = libm::exp2(-(red * lacks[0] + green * lacks[1] + blue * lacks[2]));
-        largest * libm::pow((largest + SOFT) / (1.0 + SOFT), exponent - 1.0)
+    let share = foliage::share(rgb);
+    std::array::from_fn(|i| {
+        let lacks = rgb.map(|channel| (largest - channel.max(0.0)) / (largest + WHITE[i]));
+        let sum: f64 = FIT[i].iter().zip(lacks).map(|(k, lack)| k * lack).sum();
+        let exponent = libm::exp2(-sum);
+        let level = largest * libm::pow((largest + SOFT) / (1.0 + SOFT), exponent - 1.0);
+        level + share * (foliage::LEVELS[i] - level)
     })
 }
 
-/// The share of the curve of a colour in the reflectance at a wavelength, nm, and that of each
-/// level. They add up to 1. Interpolated linearly between whole nanometres.
-pub(crate) fn parts(wavelength_nm: f64) -> (f64, [f64; N_LEVELS]) {
+/// The share of each level in the reflectance at a wavelength, nm, beyond the curve of the colour.
+/// They add up to 1. Interpolated linearly between whole nanometres.
+pub(crate) fn parts(wavelength_nm: f64) -> [f64; N_LEVELS] {
     static ROWS: LazyLock<Vec<[f64; N_LEVELS]>> = LazyLock::new(|| {
         let last = LEVELS_NM[N_LEVELS - 1] as usize + 1;
         (FIRST_NM as usize..=last).map(|nm| shares(nm as f64)).collect()
     });
-    if wavelength_nm <= FIRST_NM {
-        return (1.0, [0.0; N_LEVELS]);
-    }
     let at = (wavelength_nm - FIRST_NM).max(0.0);
     let row = (at as usize).min(ROWS.len() - 2);
     let part = (at - row as f64).min(1.0);
-    let levels: [f64; N_LEVELS] =
-        std::array::from_fn(|i| ROWS[row][i] + part * (ROWS[row + 1][i] - ROWS[row][i]));
-    (1.0 - levels.iter().sum::<f64>(), levels)
+    std::array::from_fn(|i| ROWS[row][i] + part * (ROWS[row + 1][i] - ROWS[row][i]))
 }
 
 /// The share of each level at a wavelength, nm.
 fn shares(wavelength_nm: f64) -> [f64; N_LEVELS] {
     let mut shares = [0.0; N_LEVELS];
-    shares[0] = smooth_step(wavelength_nm, JOINT_NM);
+    shares[0] = 1.0;
     for next in 1..N_LEVELS {
         // What is beyond a level goes over to the next, over the logarithm of the wavelength.
         let ends = [LEVELS_NM[next - 1], LEVELS_NM[next]].map(libm::log);
@@ -101,7 +109,7 @@ fn shares(wavelength_nm: f64) -> [f64; N_LEVELS] {
 }
 
 /// 0 below a range, 1 above it, 6x⁵ − 15x⁴ + 10x³ in between.
-fn smooth_step(at: f64, [from, to]: [f64; 2]) -> f64 {
+pub(crate) fn smooth_step(at: f64, [from, to]: [f64; 2]) -> f64 {
     let x = ((at - from) / (to - from)).clamp(0.0, 1.0);
     x * x * x * (10.0 + x * (6.0 * x - 15.0))
 }
@@ -116,10 +124,10 @@ mod tests {
     fn surfaces_reflect_about_what_was_measured() {
         // Linear red, green, blue; reflectance at 790-900 nm and 1500-1780 nm.
         let rows = [
-            ("foliage", [0.049, 0.067, 0.017], [0.445, 0.155], 1.87),
-            ("clay tile", [0.194, 0.074, 0.046], [0.249, 0.542], 1.1),
+            ("foliage", [0.049, 0.067, 0.017], [0.445, 0.155], 1.1),
+            ("clay tile", [0.194, 0.074, 0.046], [0.249, 0.542], 1.45),
             ("asphalt", [0.103, 0.092, 0.077], [0.108, 0.139], 1.25),
-            ("blue paint", [0.037, 0.078, 0.141], [0.185, 0.211], 1.1),
+            ("blue paint", [0.037, 0.078, 0.141], [0.185, 0.211], 1.55),
         ];
         for (name, rgb, measured, most) in rows {
             let [near, _, far, _] = levels(rgb);
@@ -146,16 +154,15 @@ mod tests {
     fn shares_add_up_and_join_smoothly() {
         for step in 0..4000 {
             let nm = 600.0 + 0.7 * f64::from(step);
-            let (curve, levels) = parts(nm);
-            let next = parts(nm + 1.0).1;
+            let levels = parts(nm);
+            let (sum, next): (f64, _) = (levels.iter().sum(), parts(nm + 1.0));
             let jump = (0..N_LEVELS).map(|idx| (next[idx] - levels[idx]).abs()).fold(0.0, f64::max);
-            assert!((0.0..=1.0).contains(&curve) && jump < 0.03, "{nm} {curve} {jump}");
+            assert!((sum - 1.0).abs() < 1e-12 && jump < 0.03, "{nm} {sum} {jump}");
             let exact = shares(nm);
             assert!((0..N_LEVELS).all(|idx| (levels[idx] - exact[idx]).abs() < 2e-4), "{nm}");
         }
-        let row = |nm: f64| parts(nm).1;
-        assert_eq!(row(700.0), [0.0; N_LEVELS]);
-        assert_eq!(row(845.0), [1.0, 0.0, 0.0, 0.0]);
-        assert_eq!(row(9000.0), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(parts(700.0), [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(parts(845.0), [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(parts(9000.0), [0.0, 0.0, 0.0, 1.0]);
     }
 }

@@ -1,7 +1,7 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::spectrum::curve::{CURVE_NM, Coefficients};
-use crate::spectrum::infrared::{InfraredRule, N_LEVELS};
+use crate::spectrum::curve::{CURVE_NM, Curve, N_BASIS, N_FIXED, N_NM, basis, bounded};
+use crate::spectrum::infrared::N_LEVELS;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 4 nm.
@@ -18,25 +18,23 @@ pub(crate) const N_POINTS: usize = 6;
 /// reflectance has to be smooth.
 #[derive(Clone, Debug)]
 pub(crate) struct Quadrature<const N: usize> {
-    /// The Legendre polynomial P₁ at each node, and P₂ in `quadratic`; see [`Coefficients`].
-    t: [f64; N],
-    quadratic: [f64; N],
+    /// The functions that curves are sums of, at each node.
+    basis: [[f64; N]; N_BASIS],
     /// The weights, by channel, of the curve of the colour.
     pub weights: [[f64; N]; 3],
-    /// The weights of the infrared levels, by channel; 0 if the reflectance is constant there.
+    /// The weights of the infrared levels, by channel.
     infrared: [[f64; N_LEVELS]; 3],
 }
 
 impl<const N: usize> Quadrature<N> {
     /// The weights for the given light on a surface.
-    pub fn new(light: &WeightedDaylight, rule: InfraredRule) -> Self {
+    pub fn new(light: &WeightedDaylight) -> Self {
         let [first, last] = CURVE_NM;
         let step_nm = (last - first) / (N - 1) as f64;
         let mut weights = [[0.0; N]; 3];
         for (channel, weights) in weights.iter_mut().enumerate() {
-            // Outside 380…780 nm the curve is constant.
+            // Below 380 nm the curve is constant.
             weights[0] += light.ultraviolet[channel];
-            weights[N - 1] += light.beyond[channel];
             for (nm, weight) in light.wavelengths().zip(&light.inside[channel]) {
                 let (row, parts) = polynomial((nm - first) / step_nm, N);
                 for (node, part) in weights[row..].iter_mut().zip(parts) {
@@ -44,24 +42,9 @@ impl<const N: usize> Quadrature<N> {
                 }
             }
         }
-        let nm = |row: usize| first + row as f64 * step_nm;
-        for weights in &mut weights {
-            weights
-                .iter_mut()
-                .enumerate()
-                .for_each(|(row, weight)| *weight *= rule.visible_part(nm(row)));
-        }
-        let infrared = match rule {
-            InfraredRule::Measured => light.infrared,
-            InfraredRule::Constant => Default::default(),
-        };
-        let basis = |row: usize| Coefficients::basis(nm(row));
-        Self {
-            t: std::array::from_fn(|row| basis(row)[1]),
-            quadratic: std::array::from_fn(|row| basis(row)[2]),
-            weights,
-            infrared,
-        }
+        let step = (N_NM - 1) / (N - 1);
+        let basis = std::array::from_fn(|i| std::array::from_fn(|row| basis()[row * step][i]));
+        Self { basis, weights, infrared: light.infrared }
     }
 
     /// The same with the channels converted by `mix`, a linear map.
@@ -88,23 +71,26 @@ impl<const N: usize> Quadrature<N> {
     }
 
     /// The curve at every node.
-    pub fn curve(&self, curve: Coefficients) -> [f64; N] {
-        self.arguments(curve).map(|x| 0.5 + 0.5 * x / (1.0 + x * x).sqrt())
+    pub fn curve(&self, curve: &Curve) -> [f64; N] {
+        self.arguments(curve).map(|x| bounded(x, curve.most).0)
     }
 
-    /// The curve at every node, and its derivatives with respect to the three coefficients.
-    pub fn curve_and_slopes(&self, curve: Coefficients) -> ([f64; N], [[f64; N]; 3]) {
+    /// The curve at every node, and its derivatives with respect to the amounts of the channels.
+    pub fn curve_and_slopes(&self, curve: &Curve) -> ([f64; N], [[f64; N]; 3]) {
         // Table by table, so that the compiler vectorizes the loops over nodes.
-        let arguments = self.arguments(curve);
-        let roots = arguments.map(|x| 1.0 / (1.0 + x * x).sqrt());
-        let slope = roots.map(|root| 0.5 * root * root * root);
-        let t = std::array::from_fn(|row| slope[row] * self.t[row]);
-        let quadratic = std::array::from_fn(|row| slope[row] * self.quadratic[row]);
-        (std::array::from_fn(|row| 0.5 + 0.5 * arguments[row] * roots[row]), [slope, t, quadratic])
+        let both = self.arguments(curve).map(|x| bounded(x, curve.most));
+        let slope = |channel: usize| {
+            std::array::from_fn(|row| both[row].1 * self.basis[N_FIXED + channel][row])
+        };
+        (both.map(|(value, _)| value), std::array::from_fn(slope))
     }
 
-    fn arguments(&self, Coefficients([a, b, c]): Coefficients) -> [f64; N] {
-        std::array::from_fn(|row| a + b * self.t[row] + c * self.quadratic[row])
+    fn arguments(&self, curve: &Curve) -> [f64; N] {
+        let mut sums = [curve.amounts[0]; N];
+        for (amount, basis) in curve.amounts.iter().zip(&self.basis).skip(1) {
+            sums.iter_mut().zip(basis).for_each(|(sum, value)| *sum += amount * value);
+        }
+        sums
     }
 }
 

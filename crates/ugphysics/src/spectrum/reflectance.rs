@@ -1,29 +1,32 @@
 //! Surface colours upsampled to reflectance spectra.
 
-use crate::spectrum::curve::{CURVE_NM, Coefficients};
+use crate::spectrum::curve::{CURVE_NM, Curve};
+use crate::spectrum::foliage;
 use crate::spectrum::infrared::{self, InfraredRule, N_LEVELS};
 use crate::spectrum::quadrature::{Quadrature, dot};
 use crate::spectrum::upsampling::solve;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
-/// The value of the largest channel for which a curve is solved: with 1 the coefficients would grow
-/// without bound towards white. Colours outside the sRGB gamut need a dimmer surface to be that
-/// saturated, so they get a second try with the second value.
-const LARGEST_CHANNEL: [f64; 2] = [0.98, 0.25];
+/// The least bounds of a reflectance in units of its largest channel. With 1 no curve of a bright
+/// saturated colour would be smooth. Colours outside the sRGB gamut need a dimmer surface to be
+/// that saturated, so they get a second try with the second value.
+const LEAST_BOUND: [f64; 2] = [1.02, 4.0];
 
-/// A smooth reflectance under [`daylight`](crate::spectrum::daylight): a factor times a sigmoid of
-/// a quadratic in the wavelength (Jakob and Hanika 2019), constant below 380 nm; in infrared by an
+/// The largest bound in units of the largest channel: more makes no difference.
+const LARGEST_BOUND: f64 = 100.0;
+
+/// A smooth reflectance under [`daylight`](crate::spectrum::daylight): the one that changes least
+/// from wavelength to wavelength, between 0 and a bound, constant below 380 nm; in infrared by an
 /// [`InfraredRule`].  Eq. (P20)
 ///
 /// Greys have a constant reflectance, so white keeps the chromaticity of the illuminant. A colour
-/// with channels up to 1 has a reflectance up to 1/0.98.
+/// with channels up to 0.98 has a reflectance up to 1, and brighter ones up to 1.02 of the largest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reflectance {
     factor: f64,
     /// `None` for greys.
-    curve: Option<Coefficients>,
-    rule: InfraredRule,
-    /// The reflectances at the levels of [`InfraredRule::Measured`].
+    curve: Option<Curve>,
+    /// The reflectances at the levels of the [`InfraredRule`].
     levels: [f64; N_LEVELS],
 }
 
@@ -47,52 +50,46 @@ impl Reflectance {
     /// [`Reflectance::from_linear_srgb`] by a rule for infrared.
     pub fn with_infrared(rgb: [f64; 3], rule: InfraredRule) -> Option<Self> {
         let [red, green, blue] = rgb;
-        let levels = infrared::levels(rgb);
+        let levels = rule.levels(rgb);
         if red == green && green == blue {
-            return Some(Self { factor: red.max(0.0), curve: None, rule, levels });
+            return Some(Self { factor: red.max(0.0), curve: None, levels });
         }
         let largest = red.max(green).max(blue);
         if !(largest > 0.0 && rgb.iter().all(|channel| channel.is_finite())) {
             return None;
         }
-        LARGEST_CHANNEL.into_iter().find_map(|brightest| {
-            let factor = largest / brightest;
-            let curve = solve(
-                rgb.map(|channel| channel / factor),
-                rule,
-                levels.map(|level| level / factor),
-            )?;
-            Some(Self { factor, curve: Some(curve), rule, levels })
+        let parts = levels.map(|level| level / largest);
+        let foliage = match rule {
+            InfraredRule::Measured => foliage::share(rgb),
+            InfraredRule::Constant => 0.0,
+        };
+        LEAST_BOUND.into_iter().find_map(|least| {
+            let most = (1.0 / largest).clamp(least, LARGEST_BOUND);
+            let start = Curve::between(1.0, parts[0], foliage, most);
+            let curve = solve(rgb.map(|channel| channel / largest), start, parts)?;
+            Some(Self { factor: largest, curve: Some(curve), levels })
         })
     }
 
     /// The reflectance at a wavelength in nm.
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        let [first, last] = CURVE_NM;
-        let curve = self.factor
-            * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)));
-        match self.rule {
-            InfraredRule::Measured if wavelength_nm > infrared::FIRST_NM => {
-                let (visible, shares) = infrared::parts(wavelength_nm);
-                curve * visible + dot(&self.levels, &shares)
-            }
-            _ => curve,
+        if wavelength_nm > infrared::FIRST_NM {
+            return dot(&self.levels, &infrared::parts(wavelength_nm));
         }
+        self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm))
     }
 
     /// X, Y, Z of L(λ) = L'(λD) under daylight, which is computed beforehand: (P12) without D⁵.
     pub(crate) fn xyz_under(&self, light: &WeightedDaylight) -> [f64; 3] {
-        let ends = CURVE_NM.map(|nm| self.at(nm));
+        let ultraviolet = self.at(CURVE_NM[0]);
         let reflected: Vec<f64> = match self.curve {
             Some(curve) => light.wavelengths().map(|nm| curve.at(nm)).collect(),
             None => vec![1.0; light.inside[0].len()],
         };
         std::array::from_fn(|i| {
-            let (inside, infrared) = match self.rule {
-                InfraredRule::Measured => (&light.joined[i], dot(&self.levels, &light.infrared[i])),
-                InfraredRule::Constant => (&light.inside[i], ends[1] * light.beyond[i]),
-            };
-            ends[0] * light.ultraviolet[i] + infrared + self.factor * dot(&reflected, inside)
+            ultraviolet * light.ultraviolet[i]
+                + dot(&self.levels, &light.infrared[i])
+                + self.factor * dot(&reflected, &light.inside[i])
         })
     }
 
@@ -107,12 +104,7 @@ impl Reflectance {
     }
 
     /// The curve that is multiplied by the factor (`None`: the constant 1).
-    pub(crate) fn curve(&self) -> Option<Coefficients> {
+    pub(crate) fn curve(&self) -> Option<Curve> {
         self.curve
-    }
-
-    /// The rule for infrared.
-    pub(crate) fn rule(&self) -> InfraredRule {
-        self.rule
     }
 }

@@ -1,11 +1,11 @@
-//! Spectral upsampling: finds the reflectance curve of a colour (Jakob and Hanika 2019).
+//! Spectral upsampling: finds the reflectance curve of a colour.
 
 use std::sync::OnceLock;
 
 use crate::xyz_to_linear_srgb;
 
-use crate::spectrum::curve::Coefficients;
-use crate::spectrum::infrared::{InfraredRule, N_LEVELS};
+use crate::spectrum::curve::{Curve, N_FIXED, N_NM};
+use crate::spectrum::infrared::N_LEVELS;
 use crate::spectrum::quadrature::{N_NODES, Quadrature, dot};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
@@ -15,102 +15,71 @@ const TOLERANCE: f64 = 1e-10;
 /// The largest error of an accepted solution, in linear light.
 const ACCEPTED_ERROR: f64 = 1e-9;
 
-/// Below this error one more step is enough: the derivatives on the middle grid are right to about
-/// 10⁻³ for the steepest curves.
+/// The error on the middle grid from which on every nanometre is summed.
 const ONE_STEP_ERROR: f64 = 1e-7;
 
 /// Largest number of damped steps.
 const MAX_DAMPED_STEPS: usize = 200;
 
-/// Largest number of final Newton steps; each divides the error by about a thousand.
-const MAX_NEWTON_STEPS: usize = 4;
+/// Largest number of final Newton steps; each divides the error by ten to a thousand.
+const MAX_NEWTON_STEPS: usize = 8;
 
 /// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB,
-/// by the Levenberg–Marquardt method: first on nodes every 20 nm, then every 4 nm, then on every
-/// nanometre. `None` if no curve is found.
-pub(crate) fn solve(
-    color: [f64; 3],
-    rule: InfraredRule,
-    levels: [f64; N_LEVELS],
-) -> Option<Coefficients> {
-    let (coarse, middle, fine) = grids(rule);
+/// by the Levenberg–Marquardt method: first on nodes every 4 nm, then on every nanometre. `start`:
+/// a curve with its ends and its bound. `None` if no curve is found.
+pub(crate) fn solve(color: [f64; 3], start: Curve, levels: [f64; N_LEVELS]) -> Option<Curve> {
+    let (middle, fine) = grids();
     let infrared = fine.infrared(&levels);
     let target = std::array::from_fn(|i| color[i] - infrared[i]);
-    let start = levenberg_marquardt(coarse, target, initial_guess(target), 1e-4, 1e-3);
-    // The grids give nearly the same colours, so almost no damping is needed after the first.
-    let near = levenberg_marquardt(middle, target, start.curve, ONE_STEP_ERROR, 1e-9);
+    // Where the bounds are far, the curve is linear in the colour: one step is enough.
+    let near = levenberg_marquardt(middle, target, start, ONE_STEP_ERROR, 1e-9);
     refine(fine, target, &near).or_else(|| {
-        let found = levenberg_marquardt(fine, target, constant_curve(target), TOLERANCE, 1e-3);
-        (max_norm(found.error) < ACCEPTED_ERROR).then_some(found.curve)
+        [near.curve, start].into_iter().find_map(|start| {
+            let found = levenberg_marquardt(fine, target, start, TOLERANCE, 1e-3);
+            (max_norm(found.error) < ACCEPTED_ERROR).then_some(found.curve)
+        })
     })
 }
 
-/// The inverse of S, with the reflectance clamped away from black and white.
-fn argument(reflected: f64) -> f64 {
-    let reflected = reflected.clamp(0.02, 0.98);
-    (reflected - 0.5) / (reflected * (1.0 - reflected)).sqrt()
-}
-
-/// The constant curve at the mean of the channels.
-fn constant_curve(target: [f64; 3]) -> Coefficients {
-    Coefficients([argument((target[0] + target[1] + target[2]) / 3.0), 0.0, 0.0])
-}
-
-/// The initial guess: the curve that equals the blue channel at 455 nm, the green one at 545 nm and
-/// the red one at 600 nm, where each has most effect.
-fn initial_guess([red, green, blue]: [f64; 3]) -> Coefficients {
-    const AT: [f64; 3] = [-0.625, -0.175, 0.1];
-    let [low, middle, high] = [blue, green, red].map(argument);
-    // Newton's divided differences, converted from powers of t to Legendre polynomials.
-    let first = (middle - low) / (AT[1] - AT[0]);
-    let second = ((high - middle) / (AT[2] - AT[1]) - first) / (AT[2] - AT[0]);
-    let quadratic = second / 1.5;
-    let slope = first - second * (AT[0] + AT[1]);
-    let level = low - first * AT[0] + second * AT[0] * AT[1];
-    Coefficients([level + 0.5 * quadratic, slope, quadratic])
+/// A curve with other amounts of the channels.
+fn moved(mut curve: Curve, step: [f64; 3]) -> Curve {
+    curve.amounts[N_FIXED..].iter_mut().zip(step).for_each(|(amount, step)| *amount += step);
+    curve
 }
 
 /// Newton's method on every nanometre, with the derivatives of the nearby solution on the middle
 /// grid. `None` if it does not converge.
-fn refine(fine: &Fine, target: [f64; 3], near: &Evaluation) -> Option<Coefficients> {
+fn refine(fine: &Fine, target: [f64; 3], near: &Evaluation) -> Option<Curve> {
     let mut curve = near.curve;
     for _ in 0..MAX_NEWTON_STEPS {
-        let sums = fine.sums(&fine.curve(curve));
+        let sums = fine.sums(&fine.curve(&curve));
         let error: [f64; 3] = std::array::from_fn(|i| sums[i] - target[i]);
         if max_norm(error) < TOLERANCE {
             return Some(curve);
         }
-        let step = step(error, near.slopes, 0.0)?;
-        curve = Coefficients(std::array::from_fn(|i| curve.0[i] + step[i]));
-        if max_norm(error) < ONE_STEP_ERROR {
-            return Some(curve);
-        }
+        curve = moved(curve, step(error, near.slopes, 0.0)?);
     }
     None
 }
 
-/// Nodes every 20 nm, every 4 nm, and at every nanometre.
-type Grids = (Quadrature<21>, Quadrature<N_NODES>, Fine);
-type Fine = Quadrature<401>;
+/// Nodes every 4 nm, and at every nanometre.
+type Grids = (Quadrature<N_NODES>, Fine);
+type Fine = Quadrature<N_NM>;
 
 /// The grids with weights for linear red, green and blue at rest.
-fn grids(rule: InfraredRule) -> &'static Grids {
-    static GRIDS: [OnceLock<Grids>; 2] = [const { OnceLock::new() }; 2];
-    GRIDS[rule as usize].get_or_init(|| {
+fn grids() -> &'static Grids {
+    static GRIDS: OnceLock<Grids> = OnceLock::new();
+    GRIDS.get_or_init(|| {
         let light = WeightedDaylight::new(1.0);
         let mix = xyz_to_linear_srgb;
-        (
-            Quadrature::new(&light, rule).mixed(mix),
-            Quadrature::new(&light, rule).mixed(mix),
-            Quadrature::new(&light, rule).mixed(mix),
-        )
+        (Quadrature::new(&light).mixed(mix), Quadrature::new(&light).mixed(mix))
     })
 }
 
 /// A curve, the error of its colour, and the derivatives of that error: row channel, column
 /// coefficient.
 struct Evaluation {
-    curve: Coefficients,
+    curve: Curve,
     error: [f64; 3],
     slopes: [[f64; 3]; 3],
 }
@@ -119,7 +88,7 @@ struct Evaluation {
 fn levenberg_marquardt<const N: usize>(
     grid: &Quadrature<N>,
     target: [f64; 3],
-    start: Coefficients,
+    start: Curve,
     tolerance: f64,
     mut damping: f64,
 ) -> Evaluation {
@@ -129,8 +98,7 @@ fn levenberg_marquardt<const N: usize>(
             break;
         }
         let Some(step) = step(best.error, best.slopes, damping) else { break };
-        let next = Coefficients(std::array::from_fn(|i| best.curve.0[i] + step[i]));
-        let next = evaluate(grid, target, next);
+        let next = evaluate(grid, target, moved(best.curve, step));
         if squared_norm(next.error) < squared_norm(best.error) {
             best = next;
             damping *= 0.1;
@@ -144,12 +112,8 @@ fn levenberg_marquardt<const N: usize>(
     best
 }
 
-fn evaluate<const N: usize>(
-    grid: &Quadrature<N>,
-    target: [f64; 3],
-    curve: Coefficients,
-) -> Evaluation {
-    let (values, basis) = grid.curve_and_slopes(curve);
+fn evaluate<const N: usize>(grid: &Quadrature<N>, target: [f64; 3], curve: Curve) -> Evaluation {
+    let (values, basis) = grid.curve_and_slopes(&curve);
     let sums = grid.sums(&values);
     let slopes = std::array::from_fn(|i| std::array::from_fn(|j| dot(&basis[j], &grid.weights[i])));
     Evaluation { curve, error: std::array::from_fn(|i| sums[i] - target[i]), slopes }

@@ -12,62 +12,38 @@ pub(crate) struct WeightedDaylight {
     doppler: f64,
     /// X, Y, Z of the light emitted below 380 nm.
     pub ultraviolet: [f64; 3],
-    /// X, Y, Z of the light emitted above 780 nm.
-    pub beyond: [f64; 3],
     /// X, then Y, then Z of the light at each infrared level of a reflectance.
     pub infrared: [[f64; N_LEVELS]; 3],
     /// Wavelength at the eye, nm, of the first row of `inside`.
     first_nm: f64,
     /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
     pub inside: [Vec<f64>; 3],
-    /// The same times the share of the curve of a colour by [`InfraredRule::Measured`].
-    ///
-    /// [`InfraredRule::Measured`]: crate::spectrum::InfraredRule::Measured
-    pub joined: [Vec<f64>; 3],
 }
 
 impl WeightedDaylight {
     pub fn new(doppler: f64) -> Self {
-        let [inside, joined] =
-            [[0; 3]; 2].map(|channels| channels.map(|_| Vec::with_capacity(CIE_1931.len())));
+        let inside = [0; 3].map(|_| Vec::with_capacity(CIE_1931.len()));
         let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
-        let mut light = Self {
-            doppler,
-            ultraviolet,
-            beyond: [0.0; 3],
-            infrared,
-            first_nm: 0.0,
-            inside,
-            joined,
-        };
+        let mut light = Self { doppler, ultraviolet, infrared, first_nm: 0.0, inside };
         let scale = 1.0 / white_luminance();
         for (row, weights) in CIE_1931.iter().enumerate() {
             let seen_nm = (FIRST_NM + row) as f64;
             let level = daylight(seen_nm * doppler) * scale;
             let xyz = weights.map(|weight| weight * level);
-            let (visible, shares) = infrared::parts(seen_nm * doppler);
-            if visible < 1.0 {
+            let emitted_nm = seen_nm * doppler;
+            if emitted_nm < CURVE_NM[0] {
+                light.ultraviolet.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);
+            } else if emitted_nm > CURVE_NM[1] {
+                let shares = infrared::parts(emitted_nm);
                 for (levels, part) in light.infrared.iter_mut().zip(xyz) {
                     levels.iter_mut().zip(shares).for_each(|(level, share)| *level += share * part);
                 }
-            }
-            let into = if seen_nm * doppler < CURVE_NM[0] {
-                &mut light.ultraviolet
-            } else if seen_nm * doppler > CURVE_NM[1] {
-                &mut light.beyond
             } else {
                 if light.inside[0].is_empty() {
                     light.first_nm = seen_nm;
                 }
                 light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
-                light
-                    .joined
-                    .iter_mut()
-                    .zip(xyz)
-                    .for_each(|(channel, part)| channel.push(visible * part));
-                continue;
-            };
-            into.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);
+            }
         }
         light
     }

