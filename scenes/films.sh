@@ -81,6 +81,24 @@ film street 80 -cv '0 0 0 .. 0 .99 0' -ep 0 -14..6 3 -sp -ex auto street.ug
 ugphoton -look 1988 -qt -pan -sz 2048 1024 tunnel.ug -fo "$out/sky.png"
 film panorama 75 -warp -cv '0 0 0 .. 0 .95 0' -sp -ex auto -va 100 "$out/sky.png"
 
+# Set pieces of the gallery, ten seconds each. Past Saturn, into a ring of stones, a tram that passes
+# over the camera, a jet, a rolling wheel, a city, and all around an accelerating ship (360 degrees).
+piece() {
+    local name=$1 height=$((width * $2 / 100))
+    shift 2
+    mkdir -p "$out/$name"
+    ugfilm -qt -rays -frames "$frames" -fps $(((frames + 9) / 10)) -sz "$width" "$height" "$@" \
+        -keep "$out/$name/%05d.png" -fo "$out/$name.apng"
+    printf '%s\n' "$name.apng"
+}
+piece saturn 60 -look shape -vel .9 0 0 -va 80 -ti 2..20 saturn.ug
+piece stones 60 -look shape -sky day --no-sky-light -cv 0 .97 0 -ep 0 -12..12 1.6 -vc 0 99 1.6 -va 120 stones.ug
+piece tram 60 -look shape --no-sky-light -ti -6..14 -cam back tram.ug
+piece jet 25 -look shape -in -ti 0..1.4 jet.ug
+piece rolling 60 --no-flux -ex 1 -ti 0..8 -cam beside rolling.ug
+piece city 56 -ex follow --no-sky-light -cv .6 0 0 -ep -40..40 -2 2.2 -vc 16 22 8 -va 104 city.ug
+piece around 50 -ex follow --no-sky-light -sky dusk -pan -ti 0..12 -cam bow departure.ug
+
 # Li, Shum and Peng 2001: six clips, of the cubes of figures 5 and 6, each at a hundredth of the speed
 # and at full speed. Towards the viewer and away the cube passes beside the camera (X is -0.9). The
 # shadow of a fast cube is seen after the cube itself is gone.

@@ -95,6 +95,44 @@ fn a_sphere_is_seen_as_a_circle_at_any_speed() {
     }
 }
 
+/// A disc with a hole is where its plane is farther from the centre than one radius and nearer than
+/// the other; and with the disc in the hole it is the disc without.
+#[test]
+fn a_ring_is_a_disc_minus_a_disc() {
+    let mut random = Random(52);
+    let plane = "l 0; c white 1; ";
+    for (beta, inner) in [(0.0, 0.5), (0.5, 0.9), (0.9, 0.3), (0.99, 0.05), (0.8, 0.999)] {
+        let velocity = beta * random.direction();
+        let (eye, toward) = at_rest(velocity, CENTER - EYE);
+        let center = eye + toward * random.between(4.0, 6.0);
+        let normal = (random.in_cube(0.5) - toward).normalize();
+        let radius = random.between(1.0, 1.5);
+        let disc = |options: &str, radius: f64| {
+            let numbers = [center, normal].map(|v| format!("{} {} {}", v.x, v.y, v.z)).join(" ");
+            let [vx, vy, vz] = velocity.to_array();
+            format!("{plane} disc {numbers} {radius} {options} white 1 <{vx} {vy} {vz}>;")
+        };
+        for renderer in [Renderer::Rays, Renderer::Exact] {
+            let what = format!("{renderer:?} at {velocity}, part {inner}");
+            let ring = light(&disc(&format!("-inner {}", inner * radius), radius), renderer);
+            check(&ring, &what, |direction| {
+                let (from, toward) = at_rest(velocity, direction);
+                let t = (center - from).dot(normal) / toward.dot(normal);
+                let part = (from + t * toward).distance(center) / radius;
+                let is_near = (part - 1.0).abs().min((part - inner).abs()) < 1e-9;
+                (!is_near).then_some(t > 0.0 && inner < part && part < 1.0)
+            });
+            let [whole, hole] = [radius, inner * radius].map(|r| light(&disc("", r), renderer));
+            let n_whole = whole.iter().filter(|light| light[0] > 0.25).count();
+            assert!(n_whole > 500, "{what}: {n_whole} pixels");
+            for (at, ((ring, hole), whole)) in ring.iter().zip(&hole).zip(&whole).enumerate() {
+                let sum = [0, 1, 2].map(|channel| ring[channel] + hole[channel]);
+                assert_eq!(sum, *whole, "{what}: pixel {at}");
+            }
+        }
+    }
+}
+
 /// Where a ray meets a sphere first.
 fn meets(center: DVec3, radius: f64, (from, toward): (DVec3, DVec3)) -> Option<DVec3> {
     let along = (center - from).dot(toward);
@@ -189,7 +227,7 @@ fn shadows_are_those_of_round_faces() {
 fn polygons_agree_with_exact_shapes() {
     let shapes =
         "def d; sphere -1.5 0 0 .7 red; cylinder 0 -1 -.5 0 -.4 1.2 .4 blue; tube .8 0 0 1.6 .5 .5 .4 green;
-                  disc 0 .5 -1 .2 .1 1 1.2 red; end;";
+                  disc 0 .5 -1 .2 .1 1 1.2 red; disc .2 1.1 .4 .4 -1 .3 .9 -inner .5 blue; end;";
     for (place, velocity) in [
         ("-ry 20", "0 0 0"),
         ("-mx -sz 1.4 -rx 35", ".6 .3 0"),

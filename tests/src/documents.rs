@@ -152,13 +152,25 @@ pub fn prepare(folder: &Path, programs: &Path) {
     }
 }
 
+/// Files of `scenes/` that commands and scenes read.
+const OTHER_FILES: [&str; 8] = [
+    "stars.csv",
+    "globe.obj",
+    "crate.gltf",
+    "facade.png",
+    "facade-yellow.png",
+    "facade-brown.png",
+    "facade-grey.png",
+    "paving.png",
+];
+
 fn copy_scenes(folder: &Path) {
     for folder in [folder.to_owned(), folder.join("scenes")] {
         fs::create_dir_all(&folder).expect("a folder");
         for name in scenes::names() {
             fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
         }
-        for name in ["stars.csv", "globe.obj", "crate.gltf", "facade.png", "paving.png"] {
+        for name in OTHER_FILES {
             fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).expect("a copy");
         }
     }

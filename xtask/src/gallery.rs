@@ -1,22 +1,30 @@
 //! The pictures of the documentation, drawn by the commands in its pages.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ugtests::documents::{Page, prepare, resized, with_options};
+use image::imageops::{FilterType, resize};
+use image::{RgbImage, open};
+use ugtests::documents::{Page, prepare, resized, shrunk, with_options, written_files};
 use ugtests::scenes;
 
 use crate::programs;
 
-/// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 5] = [
+/// The pages, each with the default size of its pictures in pixels. What README shows is drawn in
+/// the gallery once more.
+const PAGES: [(&str, [u32; 2]); 6] = [
+    (README, [1600, 1000]),
     ("docs/gallery.md", [640, 480]),
     ("docs/start.md", [1280, 960]),
     ("docs/motion.md", [640, 480]),
     ("docs/teaching.md", [640, 480]),
     ("docs/figures.md", [640, 480]),
 ];
+
+/// The page of which only those commands run that draw its pictures.
+const README: &str = "README.md";
 
 /// Folder of the small pictures, beside the large ones.
 const SMALL: &str = "small";
@@ -27,24 +35,33 @@ pub struct Args {
     /// Only pages whose path contains TEXT
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
+    /// Draw coarsely, store nothing, and fail where a stored picture has other inputs, or looks
+    /// different
+    #[arg(long)]
+    check: bool,
     /// Folder of the programs [default: those of the release profile, built if need be]
     #[arg(long, value_name = "FOLDER")]
     programs: Option<PathBuf>,
 }
 
 /// Runs the commands of the pages twice, for large and small pictures, and stores the pictures that
-/// the pages show.
+/// the pages show; or compares them.
 pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     let programs = args.programs.clone().unwrap_or_else(programs::released);
     let is_wanted = |path: &str| args.only.as_ref().is_none_or(|only| path.contains(only));
+    let mut stale = Vec::new();
     for (path, size) in PAGES.into_iter().filter(|(path, _)| is_wanted(path)) {
         let page = Page::read(path);
+        if args.check {
+            stale.extend(check(out, &page, &programs)?);
+            continue;
+        }
         let has_small = page.text.contains(&format!("/{SMALL}/"));
         for (scale, part) in [(1.0, ""), (0.5, SMALL)].into_iter().take(1 + usize::from(has_small))
         {
             let folder = tempfile::tempdir()?;
             prepare(folder.path(), &programs);
-            for command in &page.commands {
+            for command in commands(&page) {
                 writeln!(out, "{path}: {}", command.lines().next().unwrap_or_default())?;
                 out.flush()?;
                 let command = resized(command, size, scale);
@@ -56,25 +73,121 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
             store(&page, folder.path(), part)?;
         }
     }
-    Ok(())
+    if stale.is_empty() {
+        return Ok(());
+    }
+    Err(io::Error::other(format!(
+        "stale pictures, which `cargo xtask gallery` draws anew:\n{}",
+        stale.join("\n")
+    )))
+}
+
+/// The commands to run for the pictures of a page.
+fn commands(page: &Page) -> impl Iterator<Item = &String> {
+    let names: Vec<PathBuf> =
+        links(page).into_iter().filter_map(|link| link.file_name().map(PathBuf::from)).collect();
+    let draws = move |command: &&String| {
+        page.path != README || written_files(command).iter().any(|file| names.contains(file))
+    };
+    page.commands.iter().filter(draws)
+}
+
+/// The pictures that a page shows or refers to, relative to its folder.
+fn links(page: &Page) -> Vec<&Path> {
+    let links = page.text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let is_picture = |link: &&Path| {
+        ["png", "gif"].iter().any(|kind| link.extension().is_some_and(|ending| ending == *kind))
+    };
+    links.map(Path::new).filter(is_picture).collect()
+}
+
+fn is_small(link: &Path) -> bool {
+    link.parent().and_then(Path::file_name).is_some_and(|last| last == SMALL)
+}
+
+/// Where the picture of a link is in the repository.
+fn place(page: &Page, link: &Path) -> PathBuf {
+    scenes::root().join(page.path).with_file_name("").join(link)
 }
 
 /// Copies the pictures that a page refers to, from `folder` to the places that it names, in their
 /// subfolder `part`.
 fn store(page: &Page, folder: &Path, part: &str) -> io::Result<()> {
-    let links = page.text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
-    let is_picture = |link: &&Path| {
-        ["png", "gif"].iter().any(|kind| link.extension().is_some_and(|ending| ending == *kind))
-    };
-    let pictures = links.map(Path::new).filter(is_picture);
-    for link in pictures {
-        let (Some(place), Some(name)) = (link.parent(), link.file_name()) else { continue };
-        if (place.file_name().is_some_and(|last| last == SMALL)) != (part == SMALL) {
+    for link in links(page).into_iter().filter(|link| is_small(link) == (part == SMALL)) {
+        let (place, Some(name)) = (place(page, link), link.file_name()) else { continue };
+        if !folder.join(name).exists() && page.path == README {
             continue;
         }
-        let place = scenes::root().join("docs").join(place);
-        fs::create_dir_all(&place)?;
-        fs::copy(folder.join(name), place.join(name))?;
+        if let Some(parent) = place.parent() {
+            fs::create_dir_all(parent)?;
+        }
+        fs::copy(folder.join(name), place)?;
     }
     Ok(())
+}
+
+/// Draws the pictures of a page coarsely, and returns which of the stored ones are stale, and why.
+fn check(out: &mut impl Write, page: &Page, programs: &Path) -> io::Result<Vec<String>> {
+    let folder = tempfile::tempdir()?;
+    prepare(folder.path(), programs);
+    let is_still = |command: &&String| !command.contains(".gif") && !command.contains(".mp4");
+    for command in commands(page).filter(is_still) {
+        page.run(&shrunk(command), folder.path(), programs).map_err(io::Error::other)?;
+    }
+    let links: BTreeMap<&Path, bool> =
+        links(page).into_iter().map(|link| (link, is_small(link))).collect();
+    let (mut stale, mut n_inputs, mut greatest) = (Vec::new(), 0, 0.0_f64);
+    for (link, is_small) in links {
+        let Some(drawn) = link.file_name().map(|name| folder.path().join(name)) else { continue };
+        if link.extension().is_none_or(|kind| kind != "png") || !drawn.exists() {
+            continue;
+        }
+        let stored = place(page, link);
+        let now = inputs(&drawn)?;
+        if now != inputs(&stored)? {
+            stale.push(format!("{}: drawn from other inputs", stored.display()));
+        }
+        n_inputs += now.len();
+        // Both sizes come from one command.
+        if !is_small {
+            let difference = difference(&drawn, &stored)?;
+            greatest = greatest.max(difference);
+            if difference > MOST_DIFFERENT {
+                stale.push(format!("{}: looks different by {difference:.3}", stored.display()));
+            }
+        }
+    }
+    writeln!(out, "{}: {n_inputs} inputs, difference up to {greatest:.3}", page.path)?;
+    out.flush()?;
+    Ok(stale)
+}
+
+/// What a picture records of its inputs, in order: each the SHA-256 of a scene, and that of the
+/// files that it includes.
+fn inputs(picture: &Path) -> io::Result<Vec<String>> {
+    // The text of PNG files is not compressed.
+    let bytes = fs::read(picture)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let recorded = text.split("SHA-256 ").skip(1).filter_map(|rest| rest.split(';').next());
+    // The name of a file, behind its hash, may be that of a pipe.
+    let is_hash = |word: &&str| word.len() == 64;
+    Ok(recorded.map(|rest| rest.split(' ').filter(is_hash).collect::<Vec<_>>().join(" ")).collect())
+}
+
+/// Pictures differ if the mean difference of their 8-bit values, over 255, is greater. Coarse
+/// pictures of today's programs differ by up to 0.03, since labels of sheets keep their size.
+const MOST_DIFFERENT: f64 = 0.06;
+
+/// The mean difference of two pictures, both reduced to a few thousand pixels.
+fn difference(a: &Path, b: &Path) -> io::Result<f64> {
+    const WIDTH: u32 = 64;
+    const HEIGHT: u32 = 48;
+    let reduced = |path: &Path| -> io::Result<RgbImage> {
+        let picture = open(path).map_err(io::Error::other)?.to_rgb8();
+        Ok(resize(&picture, WIDTH, HEIGHT, FilterType::Triangle))
+    };
+    let (a, b) = (reduced(a)?, reduced(b)?);
+    let sum: f64 =
+        a.iter().zip(b.iter()).map(|(&a, &b)| f64::from(a.abs_diff(b))).sum();
+    Ok(sum / 255.0 / f64::from(3 * WIDTH * HEIGHT))
 }

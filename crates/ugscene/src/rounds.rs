@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::split::vertex_names;
 use crate::words::messages;
 use crate::{
-    Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames,
+    Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames,
     Vertex, VertexId, rest_positions,
 };
 
@@ -71,7 +71,7 @@ pub fn cut_rounds(
         FaceShape::Sphere => n * n / 2,
         FaceShape::Cylinder => n + 2,
         FaceShape::Tube => *n,
-        FaceShape::Disc | FaceShape::Polygon => 1,
+        FaceShape::Disc | FaceShape::Ring | FaceShape::Polygon => 1,
     };
     let count =
         |cuts: &[Option<(RoundShape, usize)>]| cuts.iter().flatten().map(polygons).sum::<usize>();
@@ -209,13 +209,19 @@ impl Cutter<'_> {
                         });
                         copies.collect::<Vec<_>>()
                     });
-                    self.polygon(ends[0].iter().rev().copied());
-                    self.polygon(ends[1].iter().copied());
+                    let [foot, head] = ends;
+                    self.polygon([foot.into_iter().rev().collect()]);
+                    self.polygon([head]);
                 }
             }
             FaceShape::Disc => {
-                let rim: Vec<VertexId> = rim(0.0).map(|unit| self.vertex(unit, None)).collect();
-                self.polygon(rim.into_iter());
+                let rim = rim(0.0).map(|unit| self.vertex(unit, None)).collect();
+                self.polygon([rim]);
+            }
+            FaceShape::Ring => {
+                let rims = [1.0, self.round.inner]
+                    .map(|radius| rim(0.0).map(|unit| self.vertex(radius * unit, None)).collect());
+                self.polygon(rims);
             }
         }
     }
@@ -257,18 +263,16 @@ impl Cutter<'_> {
             let mut corners =
                 vec![of(below, at), of(below, at + 1), of(above, at + 1), of(above, at)];
             corners.dedup();
-            self.polygon(corners.into_iter());
+            self.polygon([corners]);
         }
     }
 
     /// Adds a polygon, counterclockwise seen from outside unless the shape is mirrored.
-    fn polygon(&mut self, corners: impl DoubleEndedIterator<Item = VertexId>) {
-        let contours: &mut Contours = &mut self.scene.contours;
-        let rows = if self.round.axes.determinant() < 0.0 {
-            contours.push_all([corners.rev().collect::<Vec<_>>()])
-        } else {
-            contours.push_all([corners.collect::<Vec<_>>()])
-        };
+    fn polygon<const N: usize>(&mut self, mut corners: [Vec<VertexId>; N]) {
+        if self.round.axes.determinant() < 0.0 {
+            corners.iter_mut().for_each(|contour| contour.reverse());
+        }
+        let rows = self.scene.contours.push_all(corners);
         self.scene.faces.push(Face {
             contours: rows,
             shape: FaceShape::Polygon,

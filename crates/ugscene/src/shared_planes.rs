@@ -143,7 +143,7 @@ impl PlacedFace<'_> {
     /// nearly the same planes; NaN if it has no area, or is not flat.
     #[inline(always)] // Runs for every face of a scene.
     fn number(&self, reach: f64) -> f64 {
-        if !matches!(self.face.shape, FaceShape::Polygon | FaceShape::Disc) {
+        if !matches!(self.face.shape, FaceShape::Polygon | FaceShape::Disc | FaceShape::Ring) {
             return f64::NAN;
         }
         let outline = self.scene.contours.get(self.face.contours.start);

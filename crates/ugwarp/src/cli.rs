@@ -454,16 +454,20 @@ fn stars(input: &Input) -> Result<StarList, Failure> {
 
 /// The name of a basis, or three temperatures.
 fn basis(words: &[String]) -> Result<Basis, Failure> {
-    match words {
-        [word] if word == "mixture" => Ok(Basis::Mixture),
-        [first, second, third] => {
-            let kelvin = |word: &String| finite(word).map_err(Failure::Usage);
-            Ok(Basis::Planck([kelvin(first)?, kelvin(second)?, kelvin(third)?]))
+    let kelvins: Vec<f64> = words.iter().map_while(|word| finite(word).ok()).collect();
+    match (words, &kelvins[..]) {
+        ([word], _) if word == "mixture" => Ok(Basis::Mixture),
+        (_, &[first, second, third]) => Ok(Basis::Planck([first, second, third])),
+        (_, kelvins) => {
+            let given = match kelvins.len() {
+                0 => String::new(),
+                n => format!("; {n} of them are given"),
+            };
+            Err(Failure::Usage(format!(
+                "`{}` is no basis: --basis takes mixture or three temperatures{given}",
+                words.join(" ")
+            )))
         }
-        _ => Err(Failure::Usage(format!(
-            "`{}` is no basis: --basis takes mixture or three temperatures",
-            words.join(" ")
-        ))),
     }
 }
 

@@ -24,7 +24,7 @@ const DEFINITION: &str = "def d ; v a % ; v b % ; v c 0 0 1 ; v e 1 0 0 ;
 f (a b c) ^ ; f (a e b) red1 ; f (b e c) ; f (c e a) red2 ~ ; end ;\n";
 
 /// Statements that are valid whatever replaces their signs.
-const MILD: [&str; 20] = [
+const MILD: [&str; 21] = [
     "f (* * *) ^ ~ ;",
     "f @ (* * *) ^ # ~ ;",
     "f (v0 v1 v2 v3) red0 mirror ~ ;",
@@ -35,6 +35,7 @@ const MILD: [&str; 20] = [
     "cylinder # # # 2 # # # red0 glass ~ ;",
     "tube 0 0 # # 1 # # red0 # ~ ;",
     "disc % # # 3 1# ^ ~ ;",
+    "disc % # # 3 2# -inner 1 ^ ~ ;",
     "i (d) ~ ;",
     "i (d -tx # -ry # -sa #) ~ ;",
     "a (d -mx) 3 -rz 2# -ty # ~ ;",
@@ -51,8 +52,8 @@ const MILD: [&str; 20] = [
 const WILD: [&str; 25] = [
     "f (* * * * * *)(* * *) ^ ~ ;",
     "f (@ * *) ;",
-    "sphere @ (* * *)(* * *) red0 mirror ~ ; disc (* * * *) ^ ; cylinder (* * * *)(* * * *) ^ ~ ;",
-    "sphere % % ; tube @ % % # ^ ~ ; disc % % % ; cylinder % # red0 ;",
+    "sphere @ (* * *)(* * *) red0 mirror ~ ; disc (* * * *) ^ ; disc (* * * *)(* * * *) ^ ; cylinder (* * * *)(* * * *) ^ ~ ;",
+    "sphere % % ; tube @ % % # ^ ~ ; disc % % % ; cylinder % # red0 ; disc % % # -inner # ^ ;",
     "v @ % ^ % ;",
     "label @ \"@ { # \" * ; label \"\" * ; label \"漢\" @ ~ ; label @ ;",
     "v v0 % ;",

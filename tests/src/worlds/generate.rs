@@ -249,7 +249,7 @@ pub fn shape(random: &mut Random) -> Body {
     }
 }
 
-/// A sphere, a cylinder or a disc, exactly round: ends of radii and points of rims.
+/// A sphere, a cylinder, or a disc with a hole or without, exactly round: ends of radii and points of rims.
 fn round(random: &mut Random) -> Body {
     let rim =
         |z: f64| [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|side| side + z * DVec3::Z);
@@ -259,7 +259,11 @@ fn round(random: &mut Random) -> Body {
             ("sphere", [ends, ends.map(|end| -end)].concat(), vec![vec![0, 1, 2], vec![3, 4, 5]])
         }
         1 => ("cylinder", [rim(-1.0), rim(1.0)].concat(), vec![vec![0, 1, 2, 3], vec![4, 5, 6, 7]]),
-        _ => ("disc", rim(0.0).to_vec(), vec![vec![0, 1, 2, 3]]),
+        _ if random.below(2) == 0 => ("disc", rim(0.0).to_vec(), vec![vec![0, 1, 2, 3]]),
+        _ => {
+            let rims = [rim(0.0), rim(0.0).map(|corner| 0.4 * corner)].concat();
+            ("disc", rims, vec![vec![0, 1, 2, 3], vec![4, 5, 6, 7]])
+        }
     };
     Body { round: Some(word), ..plain(vertices, faces) }
 }

@@ -10,12 +10,14 @@ macro_rules! files {
 }
 
 /// Names of files and their bytes.
-const FILES: [(&str, &[u8]); 40] = files![
+const FILES: [(&str, &[u8]); 50] = files![
     "house.ug" "houses.ug" "ship.ug" "street.ug" "teapot.ug" "cubes.ug" "sphere.ug" "directions.ug"
     "lattice.ug" "grid.ug" "tunnel.ug" "die.ug" "poles.ug" "lamps.ug" "clocks.ug" "wheels.ug"
     "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
     "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
-    "room.ug" "water.ug" "rainbow.ug" "halves.ug" "town.ug" "facade.png" "paving.png" "globe.obj" "stars.csv"
+    "room.ug" "water.ug" "rainbow.ug" "halves.ug" "town.ug" "saturn.ug" "stones.ug" "tram.ug"
+    "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "facade.png" "facade-yellow.png" "facade-brown.png"
+    "facade-grey.png" "paving.png" "globe.obj" "stars.csv"
 ];
 
 /// Arguments of `ugparse example`.

@@ -45,7 +45,7 @@ const FORMS: [&str; 29] = [
     "sphere [ID] x y z radius [color] [level or surface] [< vx vy vz >] ;",
     "cylinder [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",
     "tube [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",
-    "disc [ID] x y z nx ny nz radius [color] [level or surface] [< vx vy vz >] ;",
+    "disc [ID] x y z nx ny nz radius [-inner radius] [color] [level or surface] [< vx vy vz >] ;",
     "c [ID] lightness [hue [saturation [translucency [factor]]]] ;",
     "c_rgb [ID] red green blue [translucency] ;",
     "c_xyz [ID] X Y Z [translucency] ;",

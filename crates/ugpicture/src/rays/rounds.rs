@@ -125,7 +125,7 @@ impl Round {
         let around = at.with_z(0.0).normalize_or_zero();
         let (place, normal) = match self.shape.shape {
             FaceShape::Sphere => (at.normalize_or_zero(), at),
-            FaceShape::Disc => (at.with_z(0.0), DVec3::Z),
+            FaceShape::Disc | FaceShape::Ring => (at.with_z(0.0), DVec3::Z),
             FaceShape::Cylinder
                 if at.z.abs().min((at.z - 1.0).abs()) < (at.with_z(0.0).length() - 1.0).abs() =>
             {
@@ -144,9 +144,14 @@ impl Round {
         match self.shape.shape {
             FaceShape::Polygon => [None; 2],
             FaceShape::Sphere => roots(from, step).map_or([None; 2], |roots| roots.map(Some)),
-            FaceShape::Disc => {
+            FaceShape::Disc | FaceShape::Ring => {
                 let t = at_plane(from.z, step.z);
-                [Some(t).filter(|t| (from + *t * step).with_z(0.0).length_squared() <= 1.0), None]
+                let inner = self.shape.inner;
+                let is_in = |t: &f64| {
+                    let squared = (from + *t * step).with_z(0.0).length_squared();
+                    inner * inner <= squared && squared <= 1.0
+                };
+                [Some(t).filter(is_in), None]
             }
             FaceShape::Tube => {
                 let Some(roots) = around_axis(from, step) else { return [None; 2] };

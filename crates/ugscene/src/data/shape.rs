@@ -18,6 +18,9 @@ pub enum FaceShape {
     /// `disc`: the contour is four points of its rim, a quarter apart, counterclockwise seen from
     /// outside.
     Disc,
+    /// `disc` with a hole: the contours are four points of each rim, a quarter apart, the outer rim
+    /// first.
+    Ring,
 }
 
 impl FaceShape {
@@ -28,7 +31,7 @@ impl FaceShape {
             Self::Sphere => "sphere",
             Self::Cylinder => "cylinder",
             Self::Tube => "tube",
-            Self::Disc => "disc",
+            Self::Disc | Self::Ring => "disc",
         }
     }
 
@@ -43,7 +46,7 @@ impl FaceShape {
         match self {
             Self::Polygon => &[],
             Self::Sphere => &[3, 3],
-            Self::Cylinder | Self::Tube => &[4, 4],
+            Self::Cylinder | Self::Tube | Self::Ring => &[4, 4],
             Self::Disc => &[4],
         }
     }
@@ -52,7 +55,7 @@ impl FaceShape {
 /// A round shape in place: the image of a unit shape under an affine map, such as an ellipsoid.
 ///
 /// Unit shapes are the sphere |p| = 1, the cylinder x² + y² = 1 from z = 0 to z = 1, and the disc
-/// x² + y² ≤ 1 at z = 0, whose outside has the greater z.
+/// x² + y² ≤ 1 at z = 0, whose outside has the greater z. Those of rings have a hole in the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundShape {
     /// The kind of shape.
@@ -61,17 +64,21 @@ pub struct RoundShape {
     pub origin: DVec3,
     /// Where the axes are, relative to the origin; they are independent of each other.
     pub axes: DMat3,
+    /// Of a ring, its inner radius as a part of the outer one; of other shapes 0.
+    pub inner: f64,
 }
 
 impl RoundShape {
-    /// `None` if it has no volume, a disc without area, or a number is not finite.
-    pub fn new(shape: FaceShape, origin: DVec3, axes: DMat3) -> Option<Self> {
+    /// `None` if it has no volume, a disc or ring no area, or a number is not finite.
+    pub fn new(shape: FaceShape, origin: DVec3, axes: DMat3, inner: f64) -> Option<Self> {
         /// Axes closer than this to one plane are dependent up to rounding.
         const LEAST: f64 = 1e-12;
         let units = [axes.x_axis, axes.y_axis, axes.z_axis].map(ugphysics::unit_or_zero);
         let volume = units[0].dot(units[1].cross(units[2])).abs();
-        // NaN fails the comparison.
-        (origin.is_finite() && volume > LEAST).then_some(Self { shape, origin, axes })
+        let has_hole = if shape == FaceShape::Ring { inner > 0.0 } else { inner == 0.0 };
+        // NaN fails the comparisons.
+        (origin.is_finite() && volume > LEAST && has_hole && inner < 1.0)
+            .then_some(Self { shape, origin, axes, inner })
     }
 
     /// From the corners of a round face, contour after contour; `None` as in [`RoundShape::new`].
@@ -87,7 +94,7 @@ impl RoundShape {
             FaceShape::Cylinder | FaceShape::Tube => {
                 (middle(0)?, [half(0, 2)?, half(1, 3)?, middle(4)? - middle(0)?])
             }
-            FaceShape::Disc => {
+            FaceShape::Disc | FaceShape::Ring => {
                 let (a, b) = (half(0, 2)?, half(1, 3)?);
                 let normal = ugphysics::unit_or_zero(
                     ugphysics::unit_or_zero(a).cross(ugphysics::unit_or_zero(b)),
@@ -95,7 +102,11 @@ impl RoundShape {
                 (middle(0)?, [a, b, ugphysics::length(a) * normal])
             }
         };
-        Self::new(shape, origin, DMat3::from_cols(axes[0], axes[1], axes[2]))
+        let inner = match shape {
+            FaceShape::Ring => ugphysics::length(half(4, 6)?) / ugphysics::length(axes[0]),
+            _ => 0.0,
+        };
+        Self::new(shape, origin, DMat3::from_cols(axes[0], axes[1], axes[2]), inner)
     }
 
     /// The corners of its face, contour after contour.
@@ -107,6 +118,7 @@ impl RoundShape {
     pub(crate) fn units(&self) -> Vec<DVec3> {
         let (a, b) = ([1.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, -1.0]);
         let rim = |z: f64| (0..4).map(move |at| DVec3::new(a[at], b[at], z));
+        let inner = self.inner;
         match self.shape {
             FaceShape::Polygon => Vec::new(),
             FaceShape::Sphere => {
@@ -114,6 +126,7 @@ impl RoundShape {
             }
             FaceShape::Cylinder | FaceShape::Tube => rim(0.0).chain(rim(1.0)).collect(),
             FaceShape::Disc => rim(0.0).collect(),
+            FaceShape::Ring => rim(0.0).chain(rim(0.0).map(|unit| inner * unit)).collect(),
         }
     }
 

@@ -43,6 +43,21 @@ fn vertices_are_named_after_their_face() {
             "cylinder a (a#1 a#2 a#3 a#4) (a#5 a#6 a#7 a#8) red 0.5;",
         ],
     );
+    check(
+        "c red 0.9; disc d 0 0 0 0 0 1 4 -inner 2 red 0.5;",
+        &[
+            "c red 0.9;",
+            "v d#1 4 0 0;",
+            "v d#2 0 4 0;",
+            "v d#3 -4 0 0;",
+            "v d#4 0 -4 0;",
+            "v d#5 2 0 0;",
+            "v d#6 0 2 0;",
+            "v d#7 -2 0 0;",
+            "v d#8 0 -2 0;",
+            "disc d (d#1 d#2 d#3 d#4) (d#5 d#6 d#7 d#8) red 0.5;",
+        ],
+    );
 }
 
 #[test]
@@ -65,6 +80,16 @@ fn shapes_are_where_the_numbers_and_instances_put_them() {
     assert!(shapes[0].normal(DVec3::Z).distance(DVec3::NEG_Z) < 1e-12);
     assert_eq!(shapes[1].bounds(), [DVec3::new(1.0, -1.0, -1.0), DVec3::new(5.0, 1.0, 1.0)]);
     assert_eq!(flat("def d; sphere 0 0 0 1; end; a (d) 3 -tx 3;").matches("\nsphere (").count(), 3);
+    // Its inner radius is a part of the outer one however it is stretched.
+    for text in [
+        "disc 0 0 0 0 0 1 4 -inner 1;",
+        "def d; disc 9 9 9 1 2 1 4 -inner 1; end; i (d -sx 3 -mz -ty 100);",
+    ] {
+        let ring = rounds(&parse(text))[0];
+        assert!((ring.inner - 0.25).abs() < 1e-15, "{text}: {}", ring.inner);
+        let read = parse(&flat(text));
+        assert!((rounds(&read)[0].inner - 0.25).abs() < 1e-15, "{text}");
+    }
     let text = "def d; disc plate 0 0 0 1 0 0 1; end; i (d -sy 0);";
     assert_eq!(warnings(text, false), ["disc has no area where it is placed"]);
 }
