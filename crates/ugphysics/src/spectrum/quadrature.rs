@@ -1,7 +1,7 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::spectrum::curve::{CURVE_NM, Curve, N_BASIS, N_FIXED, N_NM, basis, bounded};
-use crate::spectrum::infrared::N_LEVELS;
+use crate::spectrum::curve::{Curve, N_BASIS, N_FIXED, N_NM, basis, bounded};
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 4 nm.

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use crate::xyz_to_linear_srgb;
 
 use crate::spectrum::curve::{Curve, N_FIXED, N_NM};
-use crate::spectrum::infrared::N_LEVELS;
 use crate::spectrum::quadrature::{N_NODES, Quadrature, dot};
+use crate::spectrum::ranges::N_LEVELS;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// The iteration stops at this error, in linear light.
