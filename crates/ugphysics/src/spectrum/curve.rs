@@ -7,12 +7,9 @@
 
 use std::sync::LazyLock;
 
-use crate::spectrum::infrared::smooth_step;
+use crate::spectrum::ranges::{CURVE_NM, smooth_step};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 use crate::xyz_to_linear_srgb;
-
-/// The range of the curve, nm; outside it the reflectance is constant, or as in infrared.
-pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 
 /// Nanometres of the curve.
 pub(crate) const N_NM: usize = 401;

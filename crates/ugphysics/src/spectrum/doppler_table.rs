@@ -80,7 +80,7 @@ impl DopplerGrid {
     }
 
     /// X, Y, Z as from [`Spectrum::shifted`], at one ln D and without a table. For surfaces the
-    /// integrals use the reflectance every 4 nm, with weights that the grid caches. Exact at the
+    /// integrals use the reflectance every 2 nm, with weights that the grid caches. Exact at the
     /// grid's own Doppler factors, and so at rest.
     pub fn xyz(&self, spectrum: &Spectrum, ln_doppler: f64) -> [f64; 3] {
         let Kind::Reflected(surface) = &spectrum.0 else {

@@ -1,7 +1,7 @@
 //! Which colours are those of green leaves, whose reflectance has a step that no smooth curve has.
 
 use crate::linear_srgb_to_xyz;
-use crate::spectrum::infrared::N_LEVELS;
+use crate::spectrum::ranges::N_LEVELS;
 
 /// CIELAB coordinates of the colour that is most likely foliage, and the distances from it, along
 /// each axis, beyond which no colour is: simulated canopies, docs/physics/infrared.py.

@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use crate::spectrum::curve::CURVE_NM;
 use crate::spectrum::foliage;
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS, smooth_step};
 
 /// What a surface of a known colour reflects beyond the visible range.  Eq. (P20)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,9 +43,6 @@ impl InfraredRule {
 
 /// Beyond this wavelength, nm, the reflectance is that of the levels.
 pub(crate) const FIRST_NM: f64 = CURVE_NM[1];
-
-/// Number of infrared levels.
-pub(crate) const N_LEVELS: usize = 4;
 
 /// The wavelengths of the levels, nm: the middles of the bands that the fit used.
 const LEVELS_NM: [f64; N_LEVELS] = [845.0, 1150.0, 1640.0, 2200.0];
@@ -106,12 +103,6 @@ fn shares(wavelength_nm: f64) -> [f64; N_LEVELS] {
         shares[next - 1] *= 1.0 - part;
     }
     shares
-}
-
-/// 0 below a range, 1 above it, 6x⁵ − 15x⁴ + 10x³ in between.
-pub(crate) fn smooth_step(at: f64, [from, to]: [f64; 2]) -> f64 {
-    let x = ((at - from) / (to - from)).clamp(0.0, 1.0);
-    x * x * x * (10.0 + x * (6.0 * x - 15.0))
 }
 
 #[cfg(test)]

@@ -69,8 +69,8 @@ impl LightSpectrum {
     /// X, Y, Z of L(λ) = C(λ) S(λD): of this light S, received with D = `doppler` and weakened on
     /// the way by C, without a factor for the radiance.  Eq. (P14), (P19)
     ///
-    /// Errors of daylight and light behind filters are below 2·10⁻³ of the largest of X, Y and Z,
-    /// of black bodies 10⁻⁴, of a spectral line 8·10⁻⁴; measured.
+    /// Errors of daylight and light behind filters are below 5·10⁻³ of the largest of X, Y and Z,
+    /// of black bodies 10⁻³, of a spectral line 5·10⁻³; measured.
     pub fn seen_through(&self, curve: &SmoothCurve, doppler: f64) -> [f64; 3] {
         let xyz = match &self.source {
             Source::Filtered(filter) => {

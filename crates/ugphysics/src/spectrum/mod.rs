@@ -40,6 +40,7 @@ mod light_spectrum;
 mod observer;
 mod quadrature;
 mod radiance;
+mod ranges;
 mod reflectance;
 mod samples;
 mod smooth_curve;

@@ -1,11 +1,11 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::spectrum::curve::{CURVE_NM, Curve, N_BASIS, N_FIXED, N_NM, basis, bounded};
-use crate::spectrum::infrared::N_LEVELS;
+use crate::spectrum::curve::{Curve, N_BASIS, N_FIXED, N_NM, basis, bounded};
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
-/// Number of nodes for colours in motion: one every 4 nm.
-pub(crate) const N_NODES: usize = 101;
+/// Number of nodes for colours in motion: one every 2 nm.
+pub(crate) const N_NODES: usize = 201;
 
 /// Number of nodes that each interpolation polynomial passes through.
 pub(crate) const N_POINTS: usize = 6;

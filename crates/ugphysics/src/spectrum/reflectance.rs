@@ -1,9 +1,10 @@
 //! Surface colours upsampled to reflectance spectra.
 
-use crate::spectrum::curve::{CURVE_NM, Curve};
+use crate::spectrum::curve::Curve;
 use crate::spectrum::foliage;
-use crate::spectrum::infrared::{self, InfraredRule, N_LEVELS};
+use crate::spectrum::infrared::{self, InfraredRule};
 use crate::spectrum::quadrature::{Quadrature, dot};
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
 use crate::spectrum::upsampling::solve;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 

@@ -9,7 +9,7 @@ use crate::spectrum::observer::SUM_Y;
 use crate::spectrum::quadrature::{N_POINTS, dot, polynomial};
 
 /// nm at the eye from node to node.
-const STEP_NM: usize = 2;
+const STEP_NM: usize = 1;
 
 /// Nodes from 360 nm to 830 nm and beyond.
 const N_NODES: usize = (CIE_1931.len() - 1).div_ceil(STEP_NM) + 1;
@@ -29,7 +29,7 @@ const N_ROWS: usize = 2 * LAST as usize + 1;
 /// A smooth function of the wavelength at the eye, at the nodes of a quadrature: what surfaces
 /// reflect and filters transmit.
 ///
-/// Between its nodes, one every 2 nm, it is interpolated by the polynomial through the six nearest.
+/// Between its nodes, one every nanometre, it is interpolated by the polynomial through the six nearest.
 /// The light that it multiplies need not be smooth.
 ///
 /// ```

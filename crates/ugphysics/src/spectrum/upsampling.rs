@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use crate::xyz_to_linear_srgb;
 
 use crate::spectrum::curve::{Curve, N_FIXED, N_NM};
-use crate::spectrum::infrared::N_LEVELS;
 use crate::spectrum::quadrature::{N_NODES, Quadrature, dot};
+use crate::spectrum::ranges::N_LEVELS;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// The iteration stops at this error, in linear light.
@@ -25,7 +25,7 @@ const MAX_DAMPED_STEPS: usize = 200;
 const MAX_NEWTON_STEPS: usize = 8;
 
 /// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB,
-/// by the Levenberg–Marquardt method: first on nodes every 4 nm, then on every nanometre. `start`:
+/// by the Levenberg–Marquardt method: first on nodes every 2 nm, then on every nanometre. `start`:
 /// a curve with its ends and its bound. `None` if no curve is found.
 pub(crate) fn solve(color: [f64; 3], start: Curve, levels: [f64; N_LEVELS]) -> Option<Curve> {
     let (middle, fine) = grids();
@@ -62,7 +62,7 @@ fn refine(fine: &Fine, target: [f64; 3], near: &Evaluation) -> Option<Curve> {
     None
 }
 
-/// Nodes every 4 nm, and at every nanometre.
+/// Nodes every 2 nm, and at every nanometre.
 type Grids = (Quadrature<N_NODES>, Fine);
 type Fine = Quadrature<N_NM>;
 

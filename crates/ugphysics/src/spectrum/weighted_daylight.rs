@@ -1,10 +1,10 @@
 //! Daylight seen with a Doppler factor, weighted by the standard observer.
 
 use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
-use crate::spectrum::curve::CURVE_NM;
 use crate::spectrum::daylight::daylight;
-use crate::spectrum::infrared::{self, N_LEVELS};
+use crate::spectrum::infrared;
 use crate::spectrum::observer::weighted_sums;
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
 
 /// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
 #[derive(Clone, Debug)]

@@ -191,8 +191,8 @@ fn few_nodes_are_enough() {
     let surfaces = COLORS.map(Spectrum::from_linear_srgb);
     let hot = [1500.0, 3000.0, 9000.0].map(|kelvin| Spectrum::blackbody(kelvin, 1.0));
     let line = Spectrum::samples(&[[588.0, 0.0], [589.0, 1.0], [590.0, 0.0]]);
-    let filtered = surfaces.iter().map(|light| (light, 2e-3));
-    let lights = filtered.chain(hot.iter().map(|light| (light, 1e-4))).chain([(&line, 8e-4)]);
+    let filtered = surfaces.iter().map(|light| (light, 5e-3));
+    let lights = filtered.chain(hot.iter().map(|light| (light, 1e-3))).chain([(&line, 5e-3)]);
     for (light, tolerance) in lights {
         let light = LightSpectrum::new(light);
         for surface in &surfaces {
