@@ -1,33 +1,164 @@
-//! Runs every command in the pages of the documentation, in a copy of `scenes/`.
+//! Runs every command in the pages of the documentation, in the folders that the pages name.
 
+use std::collections::BTreeSet;
+use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use rayon::prelude::*;
-use ugtests::documents::{Page, prepare, shrunk, transcripts, with_options, written_files};
-use ugtests::{programs, tools};
+use tempfile::TempDir;
+use ugtests::documents::{Page, fill, shrunk, transcripts, with_options, written_files};
+use ugtests::{programs, scenes, tools, tracked};
 
-/// Pages with commands for a folder with scenes, and the least number of commands.
-const PAGES: [(&str, usize); 10] = [
-    ("README.md", 18),
-    ("docs/start.md", 9),
-    ("docs/teaching.md", 12),
-    ("docs/gallery.md", 60),
-    ("docs/pipeline.md", 18),
-    ("docs/meshes.md", 4),
-    ("docs/film.md", 8),
-    ("docs/batch.md", 3),
-    ("docs/geometry.md", 1),
-    ("docs/figures.md", 10),
+/// Pages with commands, the folder that they name, and the least number of commands.
+const PAGES: [(&str, Folder, usize); 13] = [
+    ("README.md", Folder::Examples, 18),
+    ("docs/start.md", Folder::Empty, 9),
+    ("docs/teaching.md", Folder::Examples, 12),
+    ("docs/gallery.md", Folder::Examples, 60),
+    ("docs/pipeline.md", Folder::Examples, 30),
+    ("docs/meshes.md", Folder::Examples, 7),
+    ("docs/film.md", Folder::Examples, 14),
+    ("docs/batch.md", Folder::Examples, 3),
+    ("docs/geometry.md", Folder::Examples, 1),
+    ("docs/figures.md", Folder::Examples, 12),
+    ("docs/motion.md", Folder::Examples, 20),
+    ("docs/security.md", Folder::Examples, 1),
+    ("scenes/README.md", Folder::Repository, 1),
 ];
+
+/// The folder in which the reader of a page types its commands.
+#[derive(Clone, Copy)]
+enum Folder {
+    Empty,
+    /// Filled by `ugparse example --all`.
+    Examples,
+    /// The one of the repository, which has `scenes/`.
+    Repository,
+}
+
+impl Folder {
+    fn make(self, programs: &Path) -> TempDir {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        match self {
+            Self::Empty => {}
+            Self::Examples => fill(folder.path(), programs),
+            Self::Repository => {
+                symlink(scenes::root().join("scenes"), folder.path().join("scenes"))
+                    .expect("a link");
+            }
+        }
+        folder
+    }
+}
+
+/// First words of commands that are not run as the others are, with the page if they are so on that
+/// page alone, and with what runs them.
+const RUN_ELSEWHERE: [(&str, &str, &str); 22] = [
+    ("$ ", "docs/mistakes.md", "programs_answer_as_the_pages_say"),
+    ("$ ", "docs/teaching.md", "programs_answer_as_the_pages_say"),
+    ("$ ", "README.md", ".ci/run runs the first two, tests of xtask install"),
+    ("cargo test", "CONTRIBUTING.md", ".ci/run"),
+    (".ci/run", "CONTRIBUTING.md", "itself"),
+    ("cargo xtask bench", "docs/performance.md", "it measures for minutes"),
+    ("cargo xtask page", "web/README.md", "it needs another compiler"),
+    ("cargo xtask install", "conformance/README.md", "tests of xtask"),
+    ("ugconformance", "conformance/README.md", "tests of ugconformance"),
+    ("pip install", "python/README.md", "cargo xtask python"),
+    ("python3 -m venv", "docs/batch.md", "cargo xtask cluster"),
+    ("snakemake", "docs/batch.md", "cargo xtask cluster"),
+    ("batch/one-machine.sh", "docs/batch.md", "cargo xtask cluster"),
+    ("exec ugfilm", "docs/batch.md", "cargo xtask cluster"),
+    ("export", "docs/batch.md", "cargo xtask cluster"),
+    ("seq", "docs/batch.md", "it needs GNU parallel and draws in full size"),
+    ("parallel", "docs/batch.md", "it needs GNU parallel and draws in full size"),
+    ("set -eu", "docs/batch.md", "cargo xtask cluster"),
+    ("job=", "docs/security.md", "it needs bubblewrap and installed programs"),
+    ("cp upload.ug", "docs/security.md", "it needs bubblewrap and installed programs"),
+    ("timeout", "docs/security.md", "it needs bubblewrap and installed programs"),
+    ("bash -o", "docs/security.md", "it needs bubblewrap and installed programs"),
+];
+
+/// Every line of code that begins like a command is run here, or listed with what runs it.
+#[test]
+fn no_command_of_a_page_is_forgotten() {
+    const FIRST_WORDS: [&str; 30] = [
+        "ug",
+        "for ",
+        "sed ",
+        "$ ",
+        "cargo ",
+        ".ci/",
+        "pip ",
+        "python",
+        "snakemake ",
+        "batch/",
+        "scenes/",
+        "exec ",
+        "export ",
+        "seq ",
+        "parallel ",
+        "set ",
+        "job=",
+        "cp ",
+        "timeout ",
+        "bash ",
+        "sh ",
+        "cat ",
+        "echo ",
+        "printf ",
+        "mkdir ",
+        "man ",
+        "npm ",
+        "docker ",
+        "curl ",
+        "apt",
+    ];
+    let mut n_found = 0;
+    let mut forgotten = Vec::new();
+    let mut used = BTreeSet::new();
+    for path in tracked::files() {
+        let path = path.strip_prefix(scenes::root()).expect("a file of the repository");
+        let is_page = path.extension().is_some_and(|ending| ending == "md");
+        let name = path.to_str().expect("a name in UTF-8");
+        // What changed, what is built how, and cases of fuzzing are not for readers who type.
+        if !is_page || ["CHANGELOG.md", "STYLE.md", "ARCHITECTURE.md"].contains(&name) {
+            continue;
+        }
+        let page = Page::read(name);
+        let is_run = PAGES.iter().any(|(path, ..)| *path == name);
+        let commands = page.commands.iter().filter(|_| is_run);
+        let lines: Vec<&str> = commands.flat_map(|command| command.lines()).collect();
+        // Between fences is code in other languages.
+        let parts = page.text.split("```").step_by(2);
+        let code = parts.flat_map(str::lines).filter_map(|line| line.strip_prefix("    "));
+        for line in code {
+            let line = line.trim_start();
+            let code = line.split(" #").next().unwrap_or(line).trim_end();
+            if !FIRST_WORDS.iter().any(|word| line.starts_with(word)) {
+                continue;
+            }
+            n_found += 1;
+            let elsewhere = RUN_ELSEWHERE
+                .iter()
+                .position(|(word, page, _)| *page == name && line.starts_with(word));
+            used.extend(elsewhere);
+            if !lines.contains(&code) && elsewhere.is_none() {
+                forgotten.push(format!("{name}: {line}"));
+            }
+        }
+    }
+    assert!(forgotten.is_empty(), "run these in PAGES, or name what does: {forgotten:#?}");
+    assert!(n_found > 300, "{n_found}");
+    assert_eq!(used.len(), RUN_ELSEWHERE.len(), "an entry of RUN_ELSEWHERE is of no page");
+}
 
 #[test]
 fn commands_in_documents_work() {
     let has_ffmpeg = tools::has(&[tools::FFMPEG]);
-    PAGES.into_par_iter().for_each(|(path, least)| {
-        let folder = tempfile::tempdir().expect("a temporary folder");
+    PAGES.into_par_iter().for_each(|(path, folder, least)| {
         let programs = programs::folder();
-        prepare(folder.path(), programs);
+        let folder = folder.make(programs);
         let page = Page::read(path);
         assert!(page.commands.len() >= least, "{path}: {} commands", page.commands.len());
         let is_possible = |command: &&String| has_ffmpeg || !command.contains(".mp4");
@@ -59,14 +190,38 @@ fn commands_in_documents_work() {
     });
 }
 
+/// Pictures of the sizes that a page gives fit on its sheets without being scaled.
+#[test]
+fn sheets_of_the_pages_keep_the_pixels_of_their_pictures() {
+    let programs = programs::folder();
+    let folder = Folder::Examples.make(programs);
+    let page = Page::read("docs/figures.md");
+    let mut n_sheets = 0;
+    for command in &page.commands {
+        let size = command.split_once("-sz ").map(|(_, rest)| rest.splitn(3, ' '));
+        let size: Vec<&str> = size.into_iter().flatten().take(2).collect();
+        if command.contains("ugsheet -") && !command.contains(".gif") {
+            let messages = page.run(command, folder.path(), programs).expect("a sheet");
+            assert!(!messages.contains("scaled"), "{command}: {messages}");
+            n_sheets += 1;
+        } else if size.len() == 2 && size.iter().all(|side| side.ends_with("cm")) {
+            for file in written_files(command) {
+                let [size, file] = [size.join(" "), file.display().to_string()];
+                let draw = format!("ugrainbow -qt -aa 1 -sz {size} -fo {file} die.ug");
+                page.run(&draw, folder.path(), programs).expect("a picture");
+            }
+        }
+    }
+    assert!(n_sheets >= 3, "{n_sheets}");
+}
+
 #[test]
 fn programs_answer_as_the_pages_say() {
     if !tools::has(&[tools::SCRIPT]) {
         return;
     }
-    let folder = tempfile::tempdir().expect("a temporary folder");
     let programs = programs::folder();
-    prepare(folder.path(), programs);
+    let folder = Folder::Examples.make(programs);
     for (page, least) in [("docs/mistakes.md", 10), ("docs/teaching.md", 11)] {
         let transcripts = transcripts(page);
         assert!(transcripts.len() >= least, "{page}: {}", transcripts.len());

@@ -1,6 +1,15 @@
 //! The pipe that a picture records, run again by a shell in a clean folder.
-use ugtests::scenes;
+use std::collections::{BTreeMap, BTreeSet};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Command;
+
+use ugpipe::remedies::PROGRAMS;
+use ugpipe::{CommonArgs, Entry, Manual, WRITING, manual};
+use ugsheet::recipes;
+use ugtesting::Random;
 use ugtests::shell::Shell;
+use ugtests::{scenes, tools, tracked};
 
 #[track_caller]
 fn check_same(shell: &Shell, first: &str, second: &str) {
@@ -90,23 +99,268 @@ fn forged_histories_do_not_run() {
     let shell = Shell::new(&["dice.ug"]);
     let hash = "0".repeat(64);
     let forged = |command: &str| {
-        let scene = format!("{{ SHA-256 {hash} dice.ug }}\n{{ ugmesh 1: ugmesh {command} }}\n");
+        let program = command.split(' ').next().filter(|word| word.starts_with("ug"));
+        let program = program.unwrap_or("ugmesh");
+        let command = command.strip_prefix(program).unwrap_or(command).trim_start();
+        let record = format!("{program} 1: {program} {command}");
+        let scene = format!("{{ SHA-256 {hash} - }}\n{{ {record} }}\n");
         shell.write("forged.ug", [scene.as_bytes(), &scenes::text("dice")].concat());
         shell.run("ugrainbow -sz 60 40 forged.ug > forged.png");
         shell.output("ugsheet -qt --history forged.png > again.sh")
     };
-    for command in ["| touch gone", "-fo gone", "--output=gone", "; touch gone | ug"] {
+    let refused = [
+        "| touch gone",
+        "-fo gone",
+        "--output=gone",
+        "; touch gone | ug",
+        "ugparse example --all",
+        "ugfilm -frames 1 -keep gone_%d.png -dt gif dice.ug",
+        "ugrep --filter=*:sh x y",
+        "uglorentz -at gone dice.ug",
+        "uglorentz --allow-execute dice.ug",
+        "uglorentz --allow-outside dice.ug",
+        "ugrainbow -dp dice.ug",
+    ];
+    for command in refused {
         let output = forged(command);
         let messages = String::from_utf8(output.stderr).unwrap();
         let is_refused = messages.contains("must not be run") && output.status.code() == Some(1);
         assert!(is_refused || command.starts_with(';'), "{command}: {messages}");
         assert!(is_refused == shell.read("again.sh").is_empty(), "{command}");
     }
+    let trusted = "ugsheet -qt --history --allow-execute forged.png";
+    forged("uglorentz --allow-execute dice.ug");
+    assert!(
+        shell.run(trusted)[0]
+            .ends_with("\nuglorentz --allow-execute dice.ug | ugrainbow -sz 60 40\n")
+    );
     for command in ["`touch gone`", "$(touch gone)", "& touch gone", "> gone", "; touch gone"] {
         assert!(forged(command).status.success(), "{command}");
         shell.output("sh again.sh");
         assert!(!shell.path("gone").exists(), "{command}");
     }
+}
+
+/// Parts of records: commands of the programs, and what a stranger would write to run others.
+const PARTS: [&str; 40] = [
+    "ugrainbow",
+    "uglorentz",
+    "-cap",
+    "a",
+    "=",
+    " ",
+    " ",
+    " ",
+    " | ugrainbow ",
+    "'",
+    "'",
+    "\"",
+    "`",
+    "$(touch GONE)",
+    "$'",
+    "\\'",
+    "\\",
+    "; touch GONE #",
+    "& touch GONE",
+    "> GONE",
+    "| touch GONE",
+    "${PATH}",
+    "{",
+    "}",
+    "\"$(printf '\\012')\"",
+    "\"$(printf '\\047')\"",
+    "\"$(printf '\\140')\"",
+    "$'\\n'",
+    "$'\\047",
+    "\u{202e}",
+    "\u{1b}",
+    "\t",
+    "#",
+    "!",
+    "~",
+    "*",
+    "eval ",
+    "exec ",
+    "\r",
+    "γ",
+];
+
+#[test]
+fn random_records_run_programs_of_the_family_only() {
+    let mut random = Random(67);
+    let mut scripts = Vec::new();
+    let hash = "0".repeat(64);
+    for _ in 0..10_000 {
+        let mut parts = |n| (0..n).map(|_| *random.pick(&PARTS)).collect::<String>();
+        let (words, name) = (parts(8), parts(3));
+        let line = format!("ugrainbow {words} # SHA-256 {hash} {name}; ugrainbow 0.1.0");
+        for recipe in recipes(&line, &CommonArgs::default()).into_iter().flatten() {
+            let script = recipe.script();
+            let lines: Vec<&str> = script.lines().collect();
+            assert!(lines.len() == 2 && lines[0].starts_with("# "), "{line}: {script}");
+            let is_shown = |c: char| ugpipe::is_printable(c) && !"{}".contains(c);
+            assert!(lines.iter().all(|line| line.chars().all(is_shown)), "{line}: {script}");
+            scripts.push(script);
+        }
+    }
+    assert!(scripts.len() > 3000, "{}", scripts.len());
+    if !tools::has(&[tools::DASH]) {
+        return;
+    }
+    // Stubs in the place of the programs print how they were called, after their input.
+    let shell = Shell::new(&[]);
+    std::fs::create_dir(shell.path("programs")).unwrap();
+    std::fs::create_dir(shell.path("empty")).unwrap();
+    for program in PROGRAMS {
+        let name = format!("programs/{program}");
+        shell.write(
+            &name,
+            "#!/bin/dash\n/bin/cat\nprintf '<%s' \"${0##*/}\"\nprintf ' %s' \"$@\"\nprintf '>'\n",
+        );
+        std::fs::set_permissions(shell.path(&name), PermissionsExt::from_mode(0o755)).unwrap();
+    }
+    let n_run = 250;
+    for script in scripts.iter().step_by(scripts.len() / n_run) {
+        let output = Command::new("/bin/dash")
+            .args(["-c", script])
+            .current_dir(shell.path("empty"))
+            .env("PATH", shell.path("programs"))
+            .output()
+            .unwrap();
+        let [text, messages] =
+            [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+        assert!(output.status.success() && messages.is_empty(), "{script}: {messages}");
+        assert!(text.starts_with("<ugrainbow") && text.ends_with('>'), "{script}: {text}");
+        assert_eq!(shell.path("empty").read_dir().unwrap().count(), 0, "{script}");
+    }
+}
+
+/// The manuals of all programs and of their commands.
+fn manuals() -> Vec<Manual> {
+    let programs = [
+        manual::<uglorentz::Args>(),
+        manual::<ugdoppler::Args>(),
+        manual::<ugrainbow::Args>(),
+        manual::<ugphoton::Args>(),
+        manual::<ugwarp::Args>(),
+        manual::<ugmesh::Args>(),
+        manual::<ugparse::Args>(),
+        manual::<ugsheet::Args>(),
+        manual::<ugfilm::Args>(),
+    ];
+    assert_eq!(programs.len(), PROGRAMS.len());
+    programs
+        .into_iter()
+        .flat_map(|manual| [manual.commands.clone(), vec![manual]].concat())
+        .collect()
+}
+
+/// Every option whose value may be the name of a file is known to read it or to write it.
+#[test]
+fn options_that_name_files_read_or_write_them() {
+    /// Options that read their file, and texts that name none.
+    const READING: [&str; 14] = [
+        "fi",
+        "input",
+        "keys",
+        "scene",
+        "infrared",
+        "ultraviolet",
+        "sky",
+        "cam",
+        "camera",
+        "name",
+        "title",
+        "cap",
+        "label",
+        "caption",
+    ];
+    /// Names of values that are numbers, or words that the program knows.
+    const OTHERS: [&str; 3] = ["N", "X", "Y"];
+    let (mut written, mut unknown) = (BTreeSet::new(), BTreeMap::new());
+    let manuals = manuals();
+    for manual in &manuals {
+        for option in manual.options() {
+            let names: Vec<&str> =
+                option.names.iter().map(|name| name.trim_start_matches('-')).collect();
+            let n_writing = names.iter().filter(|name| WRITING.contains(name)).count();
+            if n_writing > 0 {
+                assert_eq!(
+                    n_writing,
+                    names.len(),
+                    "all names of {names:?} belong to ugpipe::WRITING"
+                );
+                written.extend(names);
+                continue;
+            }
+            let is_known = names.iter().any(|name| READING.contains(name));
+            let is_other = |option: &Entry| {
+                option.values.iter().all(|value| OTHERS.contains(&value.name.as_str()))
+            };
+            if !is_known && !is_other(option) {
+                unknown.insert(names.join(" "), option.syntax());
+            }
+        }
+    }
+    assert!(
+        unknown.is_empty(),
+        "does the value name a file that is read (READING) or written (ugpipe::WRITING), or none \
+         (OTHERS)? {unknown:#?}"
+    );
+    // `-o` is another spelling of `-fo`, and in no manual.
+    let missing: Vec<_> = WRITING.iter().filter(|name| !written.contains(**name)).collect();
+    assert_eq!(missing, [&"o"]);
+}
+
+/// Every place where a library writes a file, or lets a program write it, besides its output.
+#[test]
+fn options_that_write_files_are_known() {
+    /// Places, how many, and the options of `ugpipe::WRITING` that lead there.
+    const PLACES: [(&str, usize, &str); 7] = [
+        ("crates/ugfilm/src/film.rs", 2, "fo keep"),
+        ("crates/ugfilm/src/frame_files.rs", 1, "fo keep"),
+        ("crates/uglorentz/src/cli.rs", 1, "at"),
+        ("crates/ugmesh/src/cli.rs", 1, "fo"),
+        ("crates/ugparse/src/cli/examples.rs", 1, "all"),
+        ("crates/ugphoton/src/cli.rs", 1, "pv"),
+        ("crates/ugsheet/src/film/encode.rs", 1, "fo"),
+    ];
+    const CALLS: [&str; 9] = [
+        ".write_file(&",
+        ".write_file(path",
+        "Context::write_now(",
+        ".write_by_name(",
+        "fs::write(",
+        "fs::copy(",
+        "fs::rename(",
+        "File::create",
+        "OpenOptions",
+    ];
+    let mut found = BTreeMap::new();
+    for path in tracked::files() {
+        let path = path.strip_prefix(scenes::root()).unwrap();
+        let is_source = path.extension().is_some_and(|ending| ending == "rs")
+            && path.starts_with("crates")
+            && path.components().nth(2).is_some_and(|part| part.as_os_str() == "src");
+        // `ugpipe` writes what the others give to it.
+        if !is_source || path.starts_with("crates/ugpipe") {
+            continue;
+        }
+        let text = std::fs::read_to_string(scenes::root().join(path)).unwrap();
+        let text = text.split("#[cfg(test)]").next().unwrap();
+        let n_calls: usize = CALLS.iter().map(|call| text.matches(call).count()).sum();
+        if n_calls > 0 {
+            found.insert(path.to_owned(), n_calls);
+        }
+    }
+    let expected: BTreeMap<_, _> =
+        PLACES.iter().map(|(path, n, _)| (Path::new(path).to_owned(), *n)).collect();
+    assert_eq!(
+        found, expected,
+        "a file is written at another place: add its option to ugpipe::WRITING, and the place here"
+    );
+    let options = PLACES.iter().flat_map(|(_, _, options)| options.split(' '));
+    options.for_each(|option| assert!(WRITING.contains(&option), "{option}"));
 }
 
 #[test]
@@ -164,4 +418,37 @@ fn tiles_are_joined_to_the_bytes_of_the_whole_picture() {
             .contains("--tiles writes the picture as PNG")
     );
     assert!(message("ugsheet --tiles -cols 2 tile-*.png").contains("-cols"));
+}
+
+/// The options of the manual pages of 1988 (Nguyen, appendix B).
+#[test]
+fn options_of_1988_are_accepted() {
+    let shell = Shell::new(&["dice.ug"]);
+    shell.run(
+        "uglorentz -vel .5 0 0 -fi dice.ug -fo seen.ug
+         ugdoppler -vel 0 0 0 -fi seen.ug -fo colours.ug -fm messages.txt -gw
+         ugdoppler -qt seen.ug -fo hues.ug
+         for option in '-ih' '-iw' '-wi'; do
+             file=colours.ug; [ $option = -ih ] && file=hues.ug
+             ugrainbow -qt -sz 60 40 $option < $file > picture$option.png
+         done
+         ugphoton -qt -vel .5 0 0 -cn -1 -sz 16 12 -aa 1 dice.ug > rays.png
+         ugrainbow -qt -sz 60 40 -dp hues.ug > out
+         ugrainbow -qt -sz 60 40 -dt ps -fo same.ps hues.ug
+         ugrainbow -qt -sz 60 40 -dp -fo named hues.ug",
+    );
+    // `-dp` writes PostScript into a file of this name, and is recorded as the format.
+    check_same(&shell, "POSTSCRIPTFILE", "same.ps");
+    check_same(&shell, "POSTSCRIPTFILE", "named");
+    assert!(shell.read("POSTSCRIPTFILE").starts_with(b"%!PS") && shell.read("out").is_empty());
+    let [script, _] = shell.run("ugsheet -qt --history POSTSCRIPTFILE");
+    assert!(script.ends_with(" | ugrainbow -sz 60 40 -dt ps\n"), "{script}");
+    for name in ["picture-ih.png", "picture-iw.png", "picture-wi.png", "rays.png"] {
+        assert!(shell.read(name).len() > 300, "{name}");
+    }
+    let (status, message) = shell.fail("ugrainbow -dp -dt png hues.ug");
+    assert!(status == Some(2) && message.contains("-dp"), "{message}");
+    // Two outputs are never one file.
+    let (status, message) = shell.fail("ugrainbow -dp -fm POSTSCRIPTFILE hues.ug");
+    assert!(status == Some(2) && message.contains("two outputs"), "{message}");
 }

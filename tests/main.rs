@@ -34,6 +34,7 @@ mod processors;
 mod prompt;
 mod reader;
 mod rounds;
+mod shells;
 mod sky;
 mod stage;
 mod stop;

@@ -14,6 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use ugparse::{Options, Parsed, Source};
+use ugpipe::remedies::PROGRAMS;
 use ugtests::scenes::{self, root};
 use ugtests::tracked;
 
@@ -190,17 +191,6 @@ fn data_goes_one_way() {
 /// pipes.
 #[test]
 fn no_crate_spells_the_name_of_a_sibling_program() {
-    const PROGRAMS: [&str; 9] = [
-        "uglorentz",
-        "ugdoppler",
-        "ugrainbow",
-        "ugphoton",
-        "ugmesh",
-        "ugsheet",
-        "ugparse",
-        "ugfilm",
-        "ugwarp",
-    ];
     /// The remedies, the word that older scenes have in their escapes, the program that calls
     /// the others, and their methods in Python.
     const EXEMPT: [&str; 5] = [

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use crate::scenes;
 
-/// First words of the commands that a reader types in a folder with scenes.
+/// First words of the commands that a reader types in the folder of a page.
 const PROGRAMS: [&str; 11] = [
     "uglorentz ",
     "ugdoppler ",
@@ -26,7 +26,7 @@ const PROGRAMS: [&str; 11] = [
 /// The commands of a page.
 pub struct Page {
     /// Path in the repository.
-    pub path: &'static str,
+    pub path: String,
     /// Its text.
     pub text: String,
     /// Definitions of shell functions and variables, for all commands.
@@ -38,7 +38,7 @@ pub struct Page {
 impl Page {
     /// Reads a page of the repository.
     #[must_use]
-    pub fn read(path: &'static str) -> Self {
+    pub fn read(path: &str) -> Self {
         let text = fs::read_to_string(scenes::root().join(path))
             .unwrap_or_else(|error| panic!("{path}: {error}"));
         let (mut definitions, mut commands) = (String::new(), Vec::<String>::new());
@@ -46,7 +46,10 @@ impl Page {
         // Code is indented by four columns, in lists by more.
         for line in text.lines().filter_map(|line| line.strip_prefix("    ")) {
             let name = line.trim_start_matches(|c: char| c.is_ascii_lowercase() || c == '_');
-            if name.len() < line.len() && (name.starts_with("() {") || name.starts_with("='")) {
+            let is_limit = line.starts_with("ulimit ");
+            if is_limit
+                || name.len() < line.len() && (name.starts_with("() {") || name.starts_with("='"))
+            {
                 definitions.push_str(line);
                 definitions.push('\n');
                 continue;
@@ -62,16 +65,16 @@ impl Page {
                 is_open = code.starts_with("for ") && !code.ends_with("done");
             }
         }
-        Self { path, text, definitions, commands }
+        Self { path: path.to_owned(), text, definitions, commands }
     }
 
     /// Commands of another text, one per line, with comments after ` #`.
     #[must_use]
-    pub fn of_commands(path: &'static str, commands: &[String]) -> Self {
+    pub fn of_commands(path: &str, commands: &[String]) -> Self {
         let code =
             |command: &String| command.split(" #").next().unwrap_or(command).trim_end().to_owned();
         let commands = commands.iter().map(code).collect();
-        Self { path, text: String::new(), definitions: String::new(), commands }
+        Self { path: path.to_owned(), text: String::new(), definitions: String::new(), commands }
     }
 
     /// Runs a command in a folder, with the programs in another folder. Returns what the command
@@ -123,17 +126,24 @@ pub fn transcripts(path: &str) -> Vec<(String, String)> {
     transcripts
 }
 
-/// Makes the files that the pages take for granted: a mesh of the reader's own, in several formats,
+/// Fills a folder as a reader does who has only the programs.
+pub fn fill(folder: &Path, programs: &Path) {
+    let page = Page::of_commands("examples", &[]);
+    let filled = page.run("ugparse -qt example --all", folder, programs);
+    filled.unwrap_or_else(|message| panic!("{message}"));
+}
+
+/// Makes the files that examples of `--help` take for granted: a mesh of the reader's own, in several formats,
 /// its lights and camera, a scene that has been through `uglorentz`, and a panorama.
 const PREPARATION: &str = "\
-    ugmesh -dt obj scenes/teapot.ug -fo teapot.obj; \
+    ugmesh -dt obj teapot.ug -fo teapot.obj; \
     ugmesh -dt ply globe.obj -fo globe.ply; \
     printf 'cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -va 40 30 ; l .3 ; l .7 0 -1 1 ;' > stage.ug; \
-    uglorentz -vel .3 0 0 -in scenes/ship.ug | ugdoppler > seen.ug; \
-    ugphoton -qt -pan -aa 1 -sz 256 128 scenes/tunnel.ug -fo sky.png";
+    uglorentz -vel .3 0 0 -in ship.ug | ugdoppler > seen.ug; \
+    ugphoton -qt -pan -aa 1 -sz 256 128 tunnel.ug -fo sky.png";
 
-/// Fills a folder with what a reader has when typing commands: the scenes and stars of the
-/// repository, also in a folder `scenes` in it, and the files that pages take for granted.
+/// Fills a folder with what a reader of `--help` has when typing commands: the scenes and stars of
+/// the repository, and the files that examples take for granted.
 pub fn prepare(folder: &Path, programs: &Path) {
     static MADE: OnceLock<Vec<(OsString, Vec<u8>)>> = OnceLock::new();
     copy_scenes(folder);
@@ -165,14 +175,11 @@ const OTHER_FILES: [&str; 8] = [
 ];
 
 fn copy_scenes(folder: &Path) {
-    for folder in [folder.to_owned(), folder.join("scenes")] {
-        fs::create_dir_all(&folder).expect("a folder");
-        for name in scenes::names() {
-            fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
-        }
-        for name in OTHER_FILES {
-            fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).expect("a copy");
-        }
+    for name in scenes::names() {
+        fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
+    }
+    for name in OTHER_FILES {
+        fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).expect("a copy");
     }
 }
 

@@ -9,17 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-const NAMES: [&str; 9] = [
-    "ugdoppler",
-    "ugfilm",
-    "uglorentz",
-    "ugmesh",
-    "ugparse",
-    "ugphoton",
-    "ugrainbow",
-    "ugsheet",
-    "ugwarp",
-];
+use ugpipe::remedies::PROGRAMS;
 
 /// The folder of the programs: that of the variable `UG_PROGRAMS`, or else one with a link of each
 /// name to `ugtests-programs`, which cargo builds beside the tests.
@@ -34,7 +24,7 @@ fn linked() -> PathBuf {
     let profile = test.parent().and_then(Path::parent).expect("a test is target/PROFILE/deps/NAME");
     let folder = profile.join("programs");
     fs::create_dir_all(&folder).expect("the target folder can be written");
-    for name in NAMES {
+    for name in PROGRAMS {
         let made = symlink("../ugtests-programs", folder.join(name));
         // Tests in several processes make the same links.
         if let Err(error) = made {

@@ -79,17 +79,38 @@ pub const QEMU: Tool = tool(
 pub const MANDOC: Tool = tool("mandoc", "/dev/null", "mandoc", "man pages are valid");
 
 /// A shell.
-pub const BASH: Tool = tool("bash", "--version", "bash", "bash completes options");
+pub const BASH: Tool =
+    tool("bash", "--version", "bash", "bash completes options and reads printed commands");
 
 /// A shell.
-pub const ZSH: Tool = tool("zsh", "--version", "zsh", "zsh completes options");
+pub const ZSH: Tool =
+    tool("zsh", "--version", "zsh", "zsh completes options and reads printed commands");
+
+/// The shell of Debian's scripts.
+pub const DASH: Tool = tool("dash", "-n", "dash", "dash reads printed commands");
+
+/// The shell of small systems.
+pub const BUSYBOX: Tool = tool("busybox", "--help", "busybox", "busybox reads printed commands");
 
 /// A shell.
 pub const FISH: Tool = tool("fish", "--version", "fish", "fish completes options");
 
 /// Tools for the checks in `cargo test`: all but [`QEMU`].
-pub const TOOLS: [Tool; 11] =
-    [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, FFMPEG, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
+pub const TOOLS: [Tool; 13] = [
+    GHOSTSCRIPT,
+    POPPLER,
+    RSVG,
+    CHROMIUM,
+    FFMPEG,
+    OIIOTOOL,
+    SCRIPT,
+    MANDOC,
+    BASH,
+    ZSH,
+    FISH,
+    DASH,
+    BUSYBOX,
+];
 
 /// Checks that need the programs of another build, in the folder that the variable `UG_PROGRAMS`
 /// names.

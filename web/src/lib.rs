@@ -26,7 +26,7 @@ mod subject;
 
 use ugfilm::Pipe;
 use ugpicture::Rendering;
-use ugpipe::{Failure, Input, Words, shell_word};
+use ugpipe::{Failure, Input, Words, shell_pipe};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::commands::Commands;
@@ -105,10 +105,7 @@ impl Studio {
     /// # Errors
     /// `commands` is not a list of lists of words.
     pub fn line(commands: &str) -> Result<String, String> {
-        let line = |words: &Vec<String>| {
-            words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
-        };
-        Ok(commands::words(commands)?.iter().map(line).collect::<Vec<_>>().join(" | "))
+        Ok(shell_pipe(&commands::words(commands)?, None))
     }
 
     /// The pipe in Python, with the package `uglorentz`.

@@ -1,7 +1,10 @@
 //! The program: its commands, files and exit status.
 
 use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::{Command, Output};
+
+use ugimage::{Compression, Format, LinearFrame, Metadata};
 
 fn run(args: &[&str], input: &[u8]) -> Output {
     ugtesting::run::fed(Command::new(env!("CARGO_BIN_EXE_ugconformance")).args(args), input)
@@ -30,6 +33,47 @@ fn right_answers_pass() {
     assert!(text(&card).starts_with(
         "topic  passed  failed  unanswered  worst error  about\nT01        10       0"
     ));
+}
+
+/// The commands of the page, in a folder with a reader's program and pictures.
+#[test]
+fn commands_of_the_page_work() {
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"));
+    let page = page.expect("the page");
+    let lines = page.lines().filter_map(|line| line.strip_prefix("    "));
+    let commands: Vec<&str> = lines.filter(|line| line.starts_with("ugconformance ")).collect();
+    assert!(commands.len() >= 8, "{commands:?}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    // It answers every question with 1, some of them rightly.
+    let program = "#!/bin/sh\nsed 's/ .*/ 1/'\n";
+    fs::write(path("my-program"), program).expect("a program");
+    fs::set_permissions(path("my-program"), PermissionsExt::from_mode(0o755)).expect("a program");
+    symlink(env!("CARGO_BIN_EXE_ugconformance"), path("ugconformance")).expect("a link");
+    let drawn = run(&["draw", "sphere"], b"");
+    for name in ["sphere.png", "mine.png", "truth.png"] {
+        fs::write(path(name), &drawn.stdout).expect("a picture");
+    }
+    let light = LinearFrame::new([4, 4], true, vec![[0.5, 0.25, 2.0, 1.0]; 16]);
+    let exr = Format::Exr.encode_linear(&light, &Metadata::default(), Compression::Fast);
+    for name in ["mine.exr", "truth.exr"] {
+        fs::write(path(name), &exr).expect("a picture");
+    }
+    for command in commands {
+        let output = Command::new("sh")
+            .args(["-c", command])
+            .current_dir(folder.path())
+            .env("PATH", format!("{}:/usr/bin:/bin", folder.path().display()))
+            .output()
+            .expect("a shell");
+        let messages = String::from_utf8_lossy(&output.stderr);
+        // Wrong answers are a status of 1 with a card.
+        let is_scored = command.contains("my-program") && text(&output).contains("unanswered");
+        assert!(messages.is_empty(), "{command}: {messages}");
+        assert!(output.status.success() || is_scored, "{command}: {}", output.status);
+        let file = command.split_once("> ").map(|(_, name)| fs::read(path(name)).expect("a file"));
+        assert!(file.unwrap_or(output.stdout).len() > 20, "{command}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The command line.
 
 use std::ffi::OsString;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Parser};
 use ugimage::Format;
@@ -11,7 +11,7 @@ use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, is_given,
-    one_of, parse_words, shell_os_word, whole,
+    one_of, parse_words, shell_word, whole,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
@@ -72,7 +72,7 @@ pub struct Args {
 
     /// Read values at single frames from FILE: lines such as 120 -ti 0 -ep 0 -5 2
     #[arg(long, value_name = "FILE", help_heading = FILM)]
-    keys: Option<std::path::PathBuf>,
+    keys: Option<PathBuf>,
 
     /// Draw only these frames: 40..59, or 1,5,9..12
     #[arg(long, value_name = "LIST", value_parser = ranges, help_heading = FILM)]
@@ -260,7 +260,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let film = Film { subject, script: &script, format, blur, light };
     if let Some(number) = args.print {
-        let input = args.common.input().map(shell_path);
+        let input = args.common.input().map(argument);
         let chosen = frames.into_iter().filter(|&frame| number == 0 || frame == number);
         let text = print::script(&film, chosen, &output.frame_names(), input.as_deref())?;
         if text.is_empty() {
@@ -284,7 +284,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         }
         Output::Film(kind) => {
             let caption = |&frame: &u32| -> Result<Caption, Failure> {
-                let input = args.common.input().map(shell_path);
+                let input = args.common.input().map(argument);
                 let names = output.frame_names();
                 let line = print::script(&film, std::iter::once(frame), &names, input.as_deref())?;
                 Ok(Caption { values: script.changing(f64::from(frame))?, line })
@@ -421,10 +421,9 @@ fn tell_wrong(wrong: &WrongBrightness, n_frames: usize, what_was_done: &str, con
 }
 
 /// A path as a word of a command line, which is not an option.
-fn shell_path(path: &Path) -> String {
+fn argument(path: &Path) -> PathBuf {
     let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
-    let path = if is_option { Path::new(".").join(path) } else { path.to_owned() };
-    shell_os_word(path.as_os_str())
+    if is_option { Path::new(".").join(path) } else { path.to_owned() }
 }
 
 /// The findings about frames that were printed before the film is drawn.
@@ -548,9 +547,9 @@ fn refused_sky(source: &Source) -> Option<Failure> {
         Foreign::Table => ("a table", "a list of stars"),
         _ => return None,
     };
-    let name = &source.name;
+    let (name, argument) = (&source.name, shell_word(&source.name));
     Some(Failure::failed(format!(
-        "`{name}` is not a scene but {is}; with -warp, ugfilm shows {what}, as `ugwarp {name}` does in one picture"
+        "`{name}` is not a scene but {is}; with -warp, ugfilm shows {what}, as `ugwarp {argument}` does in one picture"
     )))
 }
 

@@ -107,7 +107,7 @@ mod tests {
         let script =
             read("# a flight\n1 -ti -10 -ep 0 0 5\n\n6 -ti 0\n11 -ti 30 -ep 0 0 10 # end\n")
                 .unwrap();
-        let line = |frame| script.commands(frame, &[]).unwrap().line(Some("a.ug"), None);
+        let line = |frame| script.commands(frame, &[]).unwrap().line(Some("a.ug".as_ref()), None);
         let begins = |frame, options: &str| {
             let line = line(frame);
             assert!(line.starts_with(&format!("uglorentz a.ug {options} |")), "{line}");

@@ -134,7 +134,7 @@ impl ParsedCommand {
 
 /// Options that a film has itself or does without, because they write something else than a
 /// picture or have no effect.
-const LEFT_OUT: [&str; 7] = ["dt", "at", "explain", "crop", "pv", "cn", "look"];
+const LEFT_OUT: [&str; 8] = ["dt", "dp", "at", "explain", "crop", "pv", "cn", "look"];
 
 /// An option as it was given.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! The commands of frames as a script for a shell.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use ugimage::Format;
 use ugpipe::Failure;
@@ -18,7 +19,7 @@ pub fn script(
     film: &Film<'_>,
     frames: impl Iterator<Item = u32>,
     names: &FrameNames,
-    input: Option<&str>,
+    input: Option<&Path>,
 ) -> Result<String, Failure> {
     let mut text = String::new();
     for frame in frames {
@@ -26,7 +27,7 @@ pub fn script(
         let Some(moments) = film.moments(frame) else {
             let mut commands = film.script.commands(f64::from(frame), &[])?;
             commands.set_format(film.format);
-            text += &commands.line(input, Some(&file.display().to_string()));
+            text += &commands.line(input, Some(&file));
             text.push('\n');
             continue;
         };
@@ -44,7 +45,7 @@ pub fn script(
             let mut commands = film.script.commands(moment, DONE_TO_LIGHT)?;
             commands.set_format(Format::Exr);
             let file = file.with_extension(format!("{row:02}.exr"));
-            text += &commands.line(input, Some(&file.display().to_string()));
+            text += &commands.line(input, Some(&file));
             text.push('\n');
         }
     }

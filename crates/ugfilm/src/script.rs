@@ -1,13 +1,14 @@
 //! The command lines of every frame.
 
-use std::fmt::Write;
+use std::ffi::OsStr;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use ugimage::Format;
 use ugimage::label::number::significant;
 use ugparse::Source;
 use ugpicture::{Output, Unit, Units};
-use ugpipe::{CommonArgs, Context, Failure, shell_word};
+use ugpipe::{CommonArgs, Context, Failure, shell_pipe, shell_word};
 use ugskybox::{SceneSky, SkySource};
 
 use crate::options::{Given, PIPE, ParsedCommand, TOOLS, Tool};
@@ -262,7 +263,10 @@ impl Script {
                 *sky = SceneSky { source: SkySource::Opened(source.clone()), turn, ..*sky };
             }
         }
-        pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
+        let quoted = |words: &Vec<String>| {
+            words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
+        };
+        pipe.lines = commands.0.iter().map(quoted).collect();
         pipe.picture.output = match pipe.picture.output {
             Output::Vector(_) => Output::Vector(format),
             _ => Output::Color(format),
@@ -455,31 +459,20 @@ impl Commands {
         }
     }
 
-    /// The pipe for a shell. `input`: the scene, quoted, `None` for standard input; `output`: the
-    /// file.
-    pub fn line(&self, input: Option<&str>, output: Option<&str>) -> String {
-        let mut words: Vec<Vec<String>> = self.0.iter().map(|words| quoted(words)).collect();
-        if let (Some(first), Some(input)) = (words.first_mut(), input) {
-            first.insert(1, input.to_owned());
+    /// The pipe for a shell. `input`: the scene, `None` for standard input; `output`: the file.
+    pub fn line(&self, input: Option<&Path>, output: Option<&Path>) -> String {
+        let mut commands: Vec<Vec<&OsStr>> =
+            self.0.iter().map(|words| words.iter().map(AsRef::as_ref).collect()).collect();
+        if let (Some(first), Some(input)) = (commands.first_mut(), input) {
+            first.insert(1, input.as_os_str());
         }
-        let mut line =
-            words.iter().map(|words| words.join(" ")).collect::<Vec<String>>().join(" | ");
-        if let Some(output) = output {
-            // Writing to a string cannot fail.
-            let _ = write!(line, " > {}", shell_word(output));
-        }
-        line
+        shell_pipe(&commands, output.map(Path::as_os_str))
     }
 }
 
 /// The kind of an option's numbers.
 pub fn quantity(name: &str) -> Quantity {
     if VELOCITIES.contains(&name) { Quantity::Velocity } else { Quantity::Plain }
-}
-
-/// The words of a command for a shell.
-fn quoted(words: &[String]) -> Vec<String> {
-    words.iter().map(|word| shell_word(word)).collect()
 }
 
 /// An option as our documentation writes it.

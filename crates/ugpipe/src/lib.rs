@@ -34,6 +34,8 @@
 //!   ([`Context::write_text`]).
 //! - **Progress.** On a terminal, runs longer than a second show a progress bar; `-vb` prints the
 //!   time of each step. Computations report to a [`Progress`] and do not depend on how it is shown.
+//! - **Closed streams.** A program that needs standard input or output fails if it was started
+//!   without (`>&-`), where other programs in Rust read and write `/dev/null`.
 //! - **Exit status** 0 for success, 1 for an invalid scene, an I/O error or lack of memory, 2 for
 //!   invalid usage. If
 //!   the reading end of the output pipe is closed early, the program dies of SIGPIPE without a
@@ -48,11 +50,10 @@
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
 //! run. A program that SIGKILL, a fault or lack of memory ends while it writes a file leaves the
 //! temporary file, `.ug-` and six letters, in the same folder; the next one that writes a file
-//! there deletes it. Other signals leave nothing. A program that is started with standard output
-//! closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
+//! there deletes it. Other signals leave nothing.
 //!
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
-//! [`printable`] and the messages of [`remedies`] are compiled, and clap is not built.
+//! [`printable`], [`shell_word`] and the messages of [`remedies`] are compiled, and clap is not built.
 //!
 //! # Example
 //!
@@ -100,11 +101,13 @@
 mod cli;
 mod progress;
 pub mod remedies;
+mod shell;
 mod side;
 mod text;
 
 #[cfg(feature = "cli")]
 pub use cli::*;
 pub use progress::{Progress, Stopped};
+pub use shell::{shell_os_word, shell_pipe, shell_word};
 pub use side::{PIXELS_PER_INCH, Side};
 pub use text::{is_printable, message, printable};

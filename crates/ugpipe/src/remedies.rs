@@ -4,6 +4,21 @@
 //! program learns what was done to a scene from its stage, never from a name. `{}` stands for what
 //! is wrong.
 
+use crate::shell::shell_word;
+
+/// The programs of the family: all that a recorded pipe may run.
+pub const PROGRAMS: [&str; 9] = [
+    "ugdoppler",
+    "ugfilm",
+    "uglorentz",
+    "ugmesh",
+    "ugparse",
+    "ugphoton",
+    "ugrainbow",
+    "ugsheet",
+    "ugwarp",
+];
+
 /// Positions were made as seen already, and rest shapes are needed.
 pub const SEEN_GEOMETRY: &str = "give the scene at rest: uglorentz, ugphoton and ugfilm each compute themselves \
      where it is seen, so only one of them is in a pipe";
@@ -72,7 +87,7 @@ pub const WRITE_WAVELENGTHS: &str = "give -gw to ugdoppler";
 
 /// The input is a mesh in a format of its own. `file`: its name, if it is not standard input.
 pub fn convert_mesh(file: Option<&str>) -> String {
-    let file = file.map(|file| format!(" {file}")).unwrap_or_default();
+    let file = argument(file);
     format!("`ugmesh{file}` writes it as a scene, for the rest of the pipe")
 }
 
@@ -82,16 +97,22 @@ pub fn picture_is_complete(file: Option<&str>) -> String {
         None => "the program before this one in the pipe has drawn the picture: leave this one out"
             .to_owned(),
         Some(file) => format!(
-            "`ugwarp {file}` shows it as the sky around an observer in motion; if it was drawn of a scene, give that: \
-             `ugsheet --history {file}` prints its name"
+            "`ugwarp{0}` shows it as the sky around an observer in motion; if it was drawn of a scene, give that: \
+             `ugsheet --history{0}` prints its name",
+            argument(Some(file))
         ),
     }
 }
 
 /// The input is a table. `file`: its name, if it is not standard input.
 pub fn draw_stars(file: Option<&str>) -> String {
-    let file = file.map(|file| format!(" {file}")).unwrap_or_default();
+    let file = argument(file);
     format!("`ugwarp{file}` draws a list of stars")
+}
+
+/// A file as an argument of a command that a message shows, after a blank.
+fn argument(file: Option<&str>) -> String {
+    file.map(|file| format!(" {}", shell_word(file))).unwrap_or_default()
 }
 
 /// The input is a scene, but only pictures and lists of stars are read.

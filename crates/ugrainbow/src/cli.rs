@@ -5,6 +5,7 @@ mod words;
 use std::path::Path;
 
 use clap::{Arg, ArgAction, ArgMatches, Parser};
+use ugimage::Format;
 use uglight::Interpolation;
 use ugparse::pipe;
 use ugphysics::Hsv;
@@ -57,6 +58,12 @@ pub struct Args {
     /// --explain.
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of("formats", kinds()))]
     dt: Option<Kind>,
+
+    /// Write PostScript to the file POSTSCRIPTFILE, or to that of -fo, as in 1988
+    ///
+    /// Like -dt ps -fo POSTSCRIPTFILE. The file has colours; that of 1988 was black and white.
+    #[arg(long, conflicts_with_all = ["dt", "explain"])]
+    dp: bool,
 
     /// Vector graphics instead of pixels, for eps, ps, pdf, svg
     ///
@@ -219,6 +226,10 @@ impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
         &self.common
     }
+
+    fn default_output(&self) -> Option<&Path> {
+        self.dp.then_some(Path::new("POSTSCRIPTFILE"))
+    }
 }
 
 impl Args {
@@ -298,7 +309,8 @@ impl Args {
     }
 
     fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
-        let format = picture_format(self.dt, file, self.explain.is_some())?;
+        let given = if self.dp { Some(Kind::Picture(Format::Ps)) } else { self.dt };
+        let format = picture_format(given, file, self.explain.is_some())?;
         Ok(if self.vec { Output::Vector(format) } else { Output::Color(format) })
     }
 }

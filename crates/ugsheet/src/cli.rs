@@ -92,6 +92,8 @@ pub struct Args {
     ///
     /// For files in png, exr, hdr, ppm, pdf, svg, eps and ps, in the folder where the pipe was run.
     /// A comment has the SHA-256 of the scene, and a warning says whether the scene has changed.
+    /// Pipes that run other programs or write files are refused, and those with --allow-execute or
+    /// --allow-outside, unless that option is given here, too.
     #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt", "sz", "fps"])]
     history: bool,
 
@@ -329,7 +331,7 @@ fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let mut script = String::new();
     for Input { name, text } in &inputs {
-        let recipes = recipes(&read_history(text).unwrap_or_default());
+        let recipes = recipes(&read_history(text).unwrap_or_default(), &args.common);
         let recipes = recipes.map_err(|why| {
             Failure::failed(format!("the history of `{name}` must not be run: {why}"))
         })?;
@@ -369,10 +371,6 @@ fn inspect(recipe: &Recipe, context: &Context) {
     if recipe.versions.split(", ").any(|program| program.split(' ').next_back() != Some(version)) {
         let versions = &recipe.versions;
         context.note(&format!("drawn by {versions}; other versions may draw another picture"));
-    }
-    if let Some(option) = recipe.permission() {
-        context
-            .warn(&format!("the pipe has the option {option}: run it only if you trust the scene"));
     }
 }
 

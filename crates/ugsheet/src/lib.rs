@@ -45,6 +45,8 @@ pub use cli::{Args, main};
 pub use error::Error;
 pub use labels::{Labels, Motion};
 use layout::Layout;
+#[cfg(feature = "cli")]
+pub use recipe::{Recipe, recipes};
 pub use tiles::join;
 pub use ugimage::figure::Rgb;
 

@@ -1,17 +1,12 @@
 //! The pipe that a picture was drawn by, as a script for a shell.
 
-use ugpipe::shell_word;
+use ugpipe::remedies::PROGRAMS;
+use ugpipe::{CommonArgs, WRITING, shell_pipe, shell_word};
 
 use crate::shell_words::{self, HASH, Token, is_recipe};
 
-/// Options that are never recorded, with their other names: those that write files.
-const WRITES: [&str; 7] = ["fo", "output", "o", "fm", "messages", "at", "attributes"];
-
-/// Options with which a scene may run programs or read files elsewhere.
-const PERMISSIONS: [&str; 2] = ["allow-execute", "allow-outside"];
-
-/// A recorded pipe, checked: it runs programs of this family only, and none of them is told to
-/// write a file.
+/// A recorded pipe, checked: it runs programs of this family only, none of them is told to write a
+/// file, and no scene may run programs or read files elsewhere, unless that is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recipe {
     /// The words of every command.
@@ -25,16 +20,18 @@ pub struct Recipe {
     pub versions: String,
 }
 
-/// The pipes in the history of a picture; a sheet has one for each of its pictures.
+/// The pipes in the history of a picture; a sheet has one for each of its pictures. `allowed`: the
+/// options that state what scenes may do.
 ///
 /// # Errors
 /// Why a line must not be run.
-pub fn recipes(history: &str) -> Result<Vec<Recipe>, String> {
-    history.lines().filter(|line| is_recipe(line)).map(Recipe::parse).collect()
+pub fn recipes(history: &str, allowed: &CommonArgs) -> Result<Vec<Recipe>, String> {
+    let recipe = |line: &str| Recipe::parse(line, allowed);
+    history.lines().filter(|line| is_recipe(line)).map(recipe).collect()
 }
 
 impl Recipe {
-    fn parse(line: &str) -> Result<Self, String> {
+    fn parse(line: &str, allowed: &CommonArgs) -> Result<Self, String> {
         let (mut commands, mut comment) = (vec![Vec::new()], String::new());
         for token in shell_words::tokens(line) {
             match token {
@@ -43,7 +40,7 @@ impl Recipe {
                 Token::Comment(text) => comment = text,
             }
         }
-        commands.iter().try_for_each(|command| check(command))?;
+        commands.iter().try_for_each(|command| check(command, allowed))?;
         Self::from_parts(commands, &comment)
             .ok_or_else(|| "its hash or its versions are damaged".to_owned())
     }
@@ -64,36 +61,39 @@ impl Recipe {
 
     /// The pipe as a script: a comment with the origin, and a line with the commands.
     pub fn script(&self) -> String {
-        let quoted = |command: &Vec<String>| {
-            command.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
-        };
-        let commands: Vec<String> = self.commands.iter().map(quoted).collect();
         let scene = self.scene.as_deref().map_or_else(|| "standard input".to_owned(), shell_word);
-        format!("# {scene}, {HASH}{}; {}\n{}\n", self.sha256, self.versions, commands.join(" | "))
-    }
-
-    /// The first option that gives a scene permissions.
-    pub fn permission(&self) -> Option<&str> {
-        let words = self.commands.iter().flatten();
-        words
-            .map(String::as_str)
-            .find(|word| PERMISSIONS.contains(&option(word).unwrap_or_default()))
+        let line = shell_pipe(&self.commands, None);
+        format!("# {scene}, {HASH}{}; {}\n{line}\n", self.sha256, self.versions)
     }
 }
 
 /// Refuses commands that our programs do not record.
-fn check(command: &[String]) -> Result<(), String> {
+fn check(command: &[String], allowed: &CommonArgs) -> Result<(), String> {
     let name = command.first().map_or("", String::as_str);
-    let is_ours = name
-        .strip_prefix("ug")
-        .is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_lowercase()));
-    if !is_ours {
+    if !PROGRAMS.contains(&name) {
         return Err(format!("it runs `{name}`"));
     }
-    match command.iter().find(|word| option(word).is_some_and(|name| WRITES.contains(&name))) {
-        Some(word) => Err(format!("its option `{word}` writes a file")),
-        None => Ok(()),
+    for word in command {
+        match option(word) {
+            Some(name) if WRITING.contains(&name) => {
+                return Err(format!("its option `{word}` writes a file"));
+            }
+            Some("allow-execute") if !allowed.allow_execute => {
+                return Err(permission(word, "run programs"));
+            }
+            Some("allow-outside") if !allowed.allow_outside => {
+                return Err(permission(word, "read files outside its folder"));
+            }
+            _ => {}
+        }
     }
+    Ok(())
+}
+
+fn permission(option: &str, action: &str) -> String {
+    format!(
+        "its option `{option}` lets the scene {action}; if you trust the scene, give {option} here, too"
+    )
 }
 
 /// The name of an option without its dashes and without a value in the same word.
@@ -115,7 +115,7 @@ mod tests {
     fn pipes_become_scripts() {
         let check = |pipe: &str, name: &str, scene: &str| {
             let history = format!("uglorentz -vel .9 0 0\n{}", line(pipe, name));
-            let recipes = recipes(&history).unwrap();
+            let recipes = recipes(&history, &CommonArgs::default()).unwrap();
             let hash = "0a".repeat(32);
             let expected =
                 format!("# {scene}, SHA-256 {hash}; uglorentz 0.1.0, ugrainbow 0.1.0\n{pipe}\n");
@@ -128,40 +128,55 @@ mod tests {
         );
         check("uglorentz 'a; b.ug' | ugrainbow", "'a; b.ug'", "'a; b.ug'");
         check("ugrainbow -dt exr", "-", "standard input");
-        assert_eq!(recipes("uglorentz -vel .9 0 0\nugrainbow # no hash"), Ok(vec![]));
+        let none = "uglorentz -vel .9 0 0\nugrainbow # no hash";
+        assert_eq!(recipes(none, &CommonArgs::default()), Ok(vec![]));
     }
 
     #[test]
     fn what_programs_do_not_record_is_refused_or_quoted() {
-        let refusal = |pipe: &str| recipes(&line(pipe, "a.ug")).unwrap_err();
+        let read = |line: &str| recipes(line, &CommonArgs::default());
+        let refusal = |pipe: &str| read(&line(pipe, "a.ug")).unwrap_err();
         assert_eq!(refusal("rm -r ."), "it runs `rm`");
         assert_eq!(refusal("ugrainbow | sh"), "it runs `sh`");
         assert_eq!(refusal("ugrainbow |"), "it runs ``");
         assert_eq!(refusal("./ugrainbow"), "it runs `./ugrainbow`");
+        assert_eq!(refusal("ugrep --filter=*:sh x y"), "it runs `ugrep`");
+        assert_eq!(refusal("eval ugrainbow"), "it runs `eval`");
         assert_eq!(refusal("ugrainbow; rm a"), "it runs `ugrainbow;`");
-        for option in
-            ["-fo", "--fo", "--fo=a", "-output", "-fm", "-at", "-o", "'-'fo", "--attributes"]
-        {
+        for option in ["-fo", "--fo", "--fo=a", "-o", "'-'fo", r#""$(printf '\055')"fo"#] {
             assert!(
                 refusal(&format!("ugrainbow {option} a")).contains("writes a file"),
                 "{option}"
             );
         }
-        let script = |pipe: &str| recipes(&line(pipe, "a.ug")).unwrap()[0].script();
+        let script = |pipe: &str| read(&line(pipe, "a.ug")).unwrap()[0].script();
         assert!(
             script("ugrainbow $(rm a) `b` > c & d; e")
                 .ends_with("\nugrainbow '$(rm' 'a)' '`b`' '>' c '&' 'd;' e\n")
         );
-        assert!(recipes("ugrainbow # SHA-256 12 a.ug; ugrainbow 0.1.0").is_err());
+        // A shell would drop the line end at the end of the last word.
+        assert!(script(r#"ugrainbow -cap "$(printf '\012')" a.ug"#).ends_with(concat!(
+            "\n",
+            r#"eval 'ugrainbow -cap '\'''"$(printf '\012\047')"' a.ug'"#,
+            "\n"
+        )));
+        assert!(read("ugrainbow # SHA-256 12 a.ug; ugrainbow 0.1.0").is_err());
         let damaged = line("ugrainbow", "a.ug").replace("uglorentz 0.1.0", "$(rm)");
-        assert!(recipes(&damaged).is_err());
+        assert!(read(&damaged).is_err());
     }
 
     #[test]
-    fn permissions_are_found() {
-        let found =
-            |pipe: &str| recipes(&line(pipe, "a.ug")).unwrap()[0].permission().map(str::to_owned);
-        assert_eq!(found("uglorentz a.ug --allow-execute"), Some("--allow-execute".to_owned()));
-        assert_eq!(found("ugrainbow a.ug -cap allow-execute"), None);
+    fn permissions_are_asked_for() {
+        let none = CommonArgs::default();
+        let execute = CommonArgs { allow_execute: true, ..CommonArgs::default() };
+        let outside = CommonArgs { allow_outside: true, ..CommonArgs::default() };
+        for (option, allowed) in [("--allow-execute", &execute), ("-allow-outside", &outside)] {
+            let line = line(&format!("uglorentz a.ug {option}"), "a.ug");
+            assert!(recipes(&line, allowed).is_ok());
+            for other in [&none, &execute, &outside].into_iter().filter(|other| *other != allowed) {
+                assert!(recipes(&line, other).unwrap_err().contains(option));
+            }
+        }
+        assert!(recipes(&line("ugrainbow a.ug -cap allow-execute", "a.ug"), &none).is_ok());
     }
 }

@@ -15,7 +15,9 @@ pub enum Token {
 }
 
 /// The tokens of a line as a POSIX shell splits it. Supports what recorded command lines contain:
-/// plain words, single quotes, `$'…'`, backslashes, pipes, and a comment at the end.
+/// plain words, single quotes, `"$(printf '\033')"`, backslashes, pipes, and a comment at the end;
+/// and `$'…'`, which earlier versions recorded. Line ends at the end of `$(…)` are kept, since they
+/// were in the word that was recorded.
 pub fn tokens(line: &str) -> Vec<Token> {
     let mut rest = line;
     // As bytes: escapes may be parts of a character, or of none.
@@ -28,6 +30,10 @@ pub fn tokens(line: &str) -> Vec<Token> {
             '\'' => {
                 let (quoted, behind) = after.split_once('\'').unwrap_or((after, ""));
                 word.get_or_insert_default().extend_from_slice(quoted.as_bytes());
+                rest = behind;
+            }
+            '"' if let Some((bytes, behind)) = printed(after) => {
+                word.get_or_insert_default().extend(bytes);
                 rest = behind;
             }
             '$' if after.starts_with('\'') => {
@@ -56,6 +62,16 @@ pub fn tokens(line: &str) -> Vec<Token> {
 
 fn push(word: &mut Vec<u8>, c: char) {
     word.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
+}
+
+/// The bytes of `$(printf '\033')"` at the beginning of a text, and what follows.
+fn printed(text: &str) -> Option<(Vec<u8>, &str)> {
+    let (numbers, behind) = text.strip_prefix(r"$(printf '\")?.split_once(r#"')""#)?;
+    let byte = |number: &str| {
+        let is_octal = number.len() == 3 && number.bytes().all(|byte| matches!(byte, b'0'..=b'7'));
+        u8::from_str_radix(number, 8).ok().filter(|_| is_octal)
+    };
+    Some((numbers.split('\\').map(byte).collect::<Option<_>>()?, behind))
 }
 
 /// Appends the text of `$'…'` to a word; returns what follows the closing quote. `text`: what
@@ -108,6 +124,13 @@ mod tests {
             split(r"$'a\tb\n\175\'' $'\342\200\2561'2 $a"),
             ["a\tb\n}'", "\u{202e}12", "$a"]
         );
+        assert_eq!(
+            split(r#"'a'"$(printf '\012\142\175')"c "$(printf '\342\200\256')"'2' x"#),
+            ["a\nb}c", "\u{202e}2", "x"]
+        );
+        for other in [r#""$(printf '\9')""#, r#""$(printf"#, r#""$(touch"#, r#""$(printf '\012'"#] {
+            assert!(split(other)[0].starts_with("\"$("), "{other}");
+        }
         assert_eq!(split(r"$'a\"), ["a"]);
         assert_eq!(split(r"a\"), ["a\\"]);
     }

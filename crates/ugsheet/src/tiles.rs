@@ -81,7 +81,8 @@ fn whole_history(tile: &Picture) -> Result<Metadata, Error> {
     let without = |line: &str| {
         let is_option = |at: &usize| {
             let (before, after) = (&line[..*at], &line[at + option.len()..]);
-            before.matches('\'').count() % 2 == 0 && (after.is_empty() || after.starts_with(' '))
+            let words = [split(before), split(&option), split(after)].concat();
+            (after.is_empty() || after.starts_with(' ')) && split(line) == words
         };
         let found = line.match_indices(&option).map(|(at, _)| at).find(is_option);
         found.map_or_else(

@@ -10,14 +10,15 @@ macro_rules! files {
 }
 
 /// Names of files and their bytes.
-const FILES: [(&str, &[u8]); 50] = files![
+const FILES: [(&str, &[u8]); 51] = files![
     "house.ug" "houses.ug" "ship.ug" "street.ug" "teapot.ug" "cubes.ug" "sphere.ug" "directions.ug"
     "lattice.ug" "grid.ug" "tunnel.ug" "die.ug" "poles.ug" "lamps.ug" "clocks.ug" "wheels.ug"
     "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
     "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
     "room.ug" "water.ug" "rainbow.ug" "halves.ug" "town.ug" "saturn.ug" "stones.ug" "tram.ug"
     "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "facade.png" "facade-yellow.png" "facade-brown.png"
-    "facade-grey.png" "paving.png" "globe.obj" "stars.csv"
+    "facade-grey.png" "paving.png" "globe.obj" "crate.gltf"
+    "stars.csv"
 ];
 
 /// Arguments of `ugparse example`.
@@ -45,7 +46,8 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
     match args.name {
         Some(row) => context.write(FILES[row].1),
         None => {
-            let lines = FILES.map(|(name, text)| format!("{:10} {}\n", short(name), subject(text)));
+            let lines =
+                FILES.map(|(name, text)| format!("{:10} {}\n", short(name), subject(name, text)));
             context.write_text(&lines.concat())
         }
     }
@@ -73,8 +75,12 @@ fn write_all(context: &mut Context) -> Result<(), Failure> {
 }
 
 /// The first sentence of the comment at the head of a file, or its part before a semicolon.
-fn subject(text: &[u8]) -> String {
-    let Ok(text) = str::from_utf8(text) else { return "a picture on walls of `town`".to_owned() };
+fn subject(name: &str, text: &[u8]) -> String {
+    let text = match name.rsplit_once('.') {
+        Some((_, "png")) => return "a picture on walls of `town`".to_owned(),
+        Some((_, "gltf")) => return "A crate with a picture on its sides".to_owned(),
+        _ => str::from_utf8(text).unwrap_or_default(),
+    };
     let comment = text.trim_start_matches(['{', '#']);
     let end = [". ", ".\n", ";"].iter().filter_map(|mark| comment.find(mark)).min();
     let sentence = &comment[..end.unwrap_or(0)];

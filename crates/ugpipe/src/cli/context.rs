@@ -195,7 +195,7 @@ impl Context {
     ///
     /// Options have the historical spelling and the user's order. Options for files, threads and
     /// messages (`-fi -fo -fm -nt -qt -vb`) are omitted, since equal content must give equal bytes.
-    /// Arguments with braces or control characters are quoted as `$'…'`.
+    /// Arguments are quoted as by [`crate::shell_os_word`].
     pub fn command_line(&self) -> &str {
         &self.command_line
     }

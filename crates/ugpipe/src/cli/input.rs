@@ -38,6 +38,7 @@ pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
 #[cfg(unix)]
 fn stdin() -> io::Result<File> {
     use std::os::fd::AsFd;
+    crate::cli::at_start::require_stdin()?;
     Ok(io::stdin().as_fd().try_clone_to_owned()?.into())
 }
 

@@ -5,6 +5,8 @@ use std::process::ExitCode;
 mod args;
 mod argv;
 #[cfg(unix)]
+mod at_start;
+#[cfg(unix)]
 mod cleanup;
 mod completion;
 mod context;
@@ -37,7 +39,7 @@ mod values;
 #[cfg(not(unix))]
 use no_system::{cleanup, output, run, steps};
 
-pub use args::{CommonArgs, ToolArgs, globally};
+pub use args::{CommonArgs, ToolArgs, WRITING, globally};
 #[cfg(unix)]
 pub use cleanup::leave_signals;
 pub use cleanup::{Claim, Running, is_occupied};
@@ -51,7 +53,7 @@ pub use look::{Look, LookArgs, Looks, Preset, is_given};
 pub use manual::{Entry, Group, Manual, Value, manual};
 pub use messages::Host;
 pub use parse::{parse_command, parse_words};
-pub use provenance::{sha256, shell_os_word, shell_word};
+pub use provenance::sha256;
 pub use run::main;
 pub use steps::Steps;
 pub use values::{finite, number, one_of, vector, view_angle, whole};

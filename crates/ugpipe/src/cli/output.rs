@@ -7,6 +7,7 @@ use std::os::fd::AsFd;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
+use crate::cli::at_start::require_stdout;
 use crate::cli::cleanup::{PREFIX, Temporary};
 use crate::cli::failure::Failure;
 use crate::cli::folder::folder_of;
@@ -92,7 +93,7 @@ impl Output {
 
 impl Sink {
     fn open(path: Option<&Path>) -> io::Result<Self> {
-        let Some(path) = path else { return Ok(Self::Stdout) };
+        let Some(path) = path else { return require_stdout().map(|()| Self::Stdout) };
         // Opening an existing file for writing checks the permissions and distinguishes files from
         // devices without a race. It neither creates nor truncates anything.
         match OpenOptions::new().write(true).open(path) {

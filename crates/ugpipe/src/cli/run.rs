@@ -1,12 +1,14 @@
 //! The `main` of every program: from the command line to the exit status.
 
 use std::env;
-use std::io::{self, Write};
+use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
+use anstream::{AutoStream, ColorChoice};
 use clap::Command;
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use rustix::process::{Resource, getrlimit};
@@ -19,6 +21,7 @@ use crate::cli::context::Context;
 use crate::cli::failure::{Failure, reason};
 use crate::cli::manual::manual;
 use crate::cli::messages::Messages;
+use crate::cli::output::Output;
 use crate::cli::parse::{Unparsed, parse};
 use crate::cli::{argv, cleanup, completion, help, provenance, streams};
 
@@ -82,10 +85,8 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     exit_on_abort();
     cleanup::survive_size_limits();
     if let Some(words) = completion::words_of_shell(env::args_os()) {
-        let text = completion::completions(&manual::<A>(), &words);
-        return io::stdout()
-            .write_all(text.as_bytes())
-            .map_or(BAD_INPUT.into(), |()| ExitCode::SUCCESS);
+        let manual = manual::<A>();
+        return print(&manual.name, &completion::completions(&manual, &words));
     }
     let mut command = argv::prepare(A::command());
     let mut parsed = parse::<A>(&mut command, env::args_os());
@@ -97,13 +98,13 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     let (args, matches) = match parsed {
         Ok(parsed) => parsed,
         Err(Unparsed::Usage(message)) => return refuse(&command, message),
-        Err(Unparsed::Help(text)) => return print_help(&text),
+        Err(Unparsed::Help(text)) => return print(command.get_name(), &styled(&text)),
     };
     let mut messages = Messages::new(command.get_name());
-    let opened =
-        streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
-    let mut context =
-        Context::new(args.common(), messages, provenance::command_line(&command, &matches));
+    let mut common = args.common().clone();
+    common.fo = common.fo.or_else(|| args.default_output().map(Path::to_owned));
+    let opened = streams::check(&common, &matches).and_then(|()| messages.configure(&common));
+    let mut context = Context::new(&common, messages, provenance::command_line(&command, &matches));
     let outcome = opened
         .and_then(|()| start_threads(args.common().nt))
         .and_then(|()| run(&args, &mut context));
@@ -115,12 +116,23 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     }
 }
 
-/// Prints help or the version to standard output.
-fn print_help(text: &clap::Error) -> ExitCode {
-    match text.print() {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => die_of_sigpipe(),
-        Err(_) => BAD_INPUT.into(),
+/// The text of the help or the version, with styles if standard output shows them.
+fn styled(text: &clap::Error) -> String {
+    match AutoStream::choice(&io::stdout()) {
+        ColorChoice::Never => text.render().to_string(),
+        _ => text.render().ansi().to_string(),
+    }
+}
+
+/// Prints text to standard output instead of running the program.
+fn print(program: &str, text: &str) -> ExitCode {
+    match Output::new(None).write_with(|out| out.write_all(text.as_bytes())) {
         Ok(()) => ExitCode::SUCCESS,
+        Err(failure) if failure.is_closed_pipe() => die_of_sigpipe(),
+        Err(failure) => {
+            Messages::new(program).failure(&failure);
+            BAD_INPUT.into()
+        }
     }
 }
 

@@ -348,8 +348,11 @@ fn a_full_disk_leaves_no_file() {
     assert_run(&stdout, 1, "", "ugcat: error: cannot write `<stdout>`: No space left on device\n");
     let unwritable = shell(&folder, "\"$ugcat\" ship.ug 1< /dev/null");
     assert_run(&unwritable, 1, "", "ugcat: error: cannot write `<stdout>`: Bad file descriptor\n");
-    let help = shell(&folder, "\"$ugcat\" --help > /dev/full");
-    assert_run(&help, 1, "", "");
+    for option in ["--help", "-h", "--version", "--complete --t"] {
+        let help = shell(&folder, &format!("\"$ugcat\" {option} > /dev/full"));
+        let message = "ugcat: error: cannot write `<stdout>`: No space left on device\n";
+        assert_run(&help, 1, "", message);
+    }
 
     // A limit on the file size simulates a full disk: half of the output fits.
     fs::write(folder.path().join("old.ug"), "old").unwrap();
@@ -580,6 +583,30 @@ fn named_pipes_are_written_to() {
     let output = shell(&folder, "mkfifo pipe && { \"$ugcat\" ship.ug -fo pipe & cat pipe; wait; }");
     assert_run(&output, 0, SHIP, "");
     assert_eq!(files(&folder), ["pipe", "ship.ug"]);
+}
+
+#[test]
+fn closed_streams_are_errors_where_they_are_needed() {
+    let folder = folder();
+    let check = |line: &str, status: i32, message: &str| {
+        let message = match message {
+            "" => String::new(),
+            what => {
+                format!("ugcat: error: cannot {what}: it was closed when the program was started\n")
+            }
+        };
+        assert_run(&shell(&folder, &format!("\"$ugcat\" {line}")), status, "", &message);
+    };
+    for words in ["ship.ug", "ship.ug -fo -", "--help", "-h", "--version", "--complete --t"] {
+        check(&format!("{words} >&-"), 1, "write `<stdout>`");
+        check(&format!("{words} > /dev/null"), 0, "");
+        check(&format!("{words} 1<> /dev/null"), 0, "");
+        check(&format!("{words} 2>&- > /dev/null"), 0, "");
+    }
+    check("ship.ug -fo copy.ug <&- >&-", 0, "");
+    assert_eq!(read(&folder, "copy.ug"), SHIP);
+    check("<&-", 1, "read `<stdin>`");
+    check("<&- >&-", 1, "read `<stdin>`");
 }
 
 #[test]
