@@ -21,6 +21,7 @@ rm -rf "$tree" "$out"/ugtools*
 cargo xtask install --prefix "$tree/usr" --programs "$out/build/$host/release" >/dev/null
 doc=$tree/usr/share/doc/ugtools
 rm "$doc/installed.txt"
+cargo xtask notices > "$doc/notices.txt"
 cp -r scenes "$doc/examples"
 find "$tree" -type d -exec chmod 755 {} + -o -type f -exec chmod 644 {} +
 chmod 755 "$tree"/usr/bin/*
@@ -34,7 +35,8 @@ archive "ugtools-$version-$(uname -m)-linux" "$tree/usr"
 
 if command -v dpkg-deb >/dev/null; then
     gzip -9n "$tree"/usr/share/man/man*/*
-    cat LICENSE LICENSE-MIT > "$doc/copyright"
+    cat LICENSE LICENSE-MIT "$doc/notices.txt" > "$doc/copyright"
+    rm "$doc/notices.txt"
     gzip -9nc CHANGELOG.md > "$doc/changelog.gz"
     mkdir "$tree/DEBIAN"
     size=$(find "$tree/usr" -type f -printf '%s\n' | awk '{ kib += int(($1 + 1023) / 1024) } END { print kib }')

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks the packages in OUT: built again in another folder they are the same bytes; the Debian package
-# draws in a new Debian and leaves nothing there when it is removed; every crate can be published.
+# draws in a new Debian and leaves nothing there when it is removed; every crate can be published, with
+# its licences, and the package has the notices of every library within the programs.
 # usage: packages/check.sh OUT, as root, with debootstrap
 set -euo pipefail
 out=$(cd "$1" && pwd)
@@ -12,6 +13,28 @@ step() { printf '== %s (%s s)\n' "$1" "$SECONDS"; }
 step "every crate is packed and built from its package"
 mapfile -t crates < <(grep -Lx 'publish = false' crates/*/Cargo.toml | cut -d / -f 2)
 cargo package --quiet --target-dir "$out/build" "${crates[@]/#/--package=}"
+for crate in "${crates[@]}"; do
+    package=$(echo "$out/build/package/$crate"-[0-9]*.crate)
+    inside=$(basename "$package" .crate)
+    for text in LICENSE-MIT LICENSE-APACHE; do
+        tar xzOf "$package" "$inside/$text" | cmp - "$text"
+    done
+    tar xzOf "$package" "$inside/README.md" | head -n 1 | grep -qx "# $crate"
+done
+
+# Libraries that were built for the programs, by the files that the compiler wrote.
+step "notices of every crate that is linked in"
+host=$(rustc -vV | sed -n 's/^host: //p')
+own=$(cargo metadata --no-deps --format-version 1 | grep -o '"name":"ug[a-z]*"' | cut -d '"' -f 4)
+notices=$(sed -n 's/^  \([a-zA-Z0-9_-]*\) [0-9].*/\1/p' "$out/tree/usr/share/doc/ugtools/copyright" | tr - _)
+n=0
+for library in "$out/build/$host"/release/deps/lib*.rlib; do
+    name=$(basename "$library" | sed 's/^lib\(.*\)-[0-9a-f]*\.rlib$/\1/')
+    grep -qx "$name" <<< "$own" && continue
+    grep -qx "$name" <<< "$notices" || { echo "$name has no notice"; exit 1; }
+    n=$((n + 1))
+done
+[ "$n" -gt 80 ]
 
 step "another folder gives the same bytes"
 git clone --quiet . "$place/elsewhere"

@@ -8,6 +8,7 @@ mod literals;
 mod modules;
 mod names;
 mod paths;
+mod readmes;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -163,6 +164,93 @@ fn third_party_crates_have_a_licence_a_checksum_and_one_version() {
     assert!(n_crates > 100, "{n_crates} crates");
     findings.extend(licenses);
     assert_none(&findings);
+}
+
+/// Crates that are published, and their folders and manifests.
+fn published() -> Vec<(String, PathBuf, String)> {
+    let all = crates().into_iter().map(|(krate, folder)| {
+        let manifest = read(&folder.join("Cargo.toml"));
+        (krate, folder, manifest)
+    });
+    all.filter(|(.., manifest)| !manifest.contains("\npublish = false\n")).collect()
+}
+
+/// Packages have the same texts of both licences, most by links, and the entries that a registry
+/// shows; whoever publishes fills in one line of the workspace for all of them.
+#[test]
+fn packages_of_crates_are_complete() {
+    const INHERITED: [&str; 7] = [
+        "version",
+        "edition",
+        "rust-version",
+        "license",
+        "repository",
+        "keywords",
+        "categories",
+    ];
+    let mut findings = Vec::new();
+    let published = published();
+    assert!(published.len() > 20, "{} crates", published.len());
+    for (krate, folder, manifest) in &published {
+        let lacks = INHERITED.iter().filter(|key| !manifest.contains(&format!("\n{key}.workspace")));
+        findings.extend(lacks.map(|key| format!("{krate}: add `{key}.workspace = true`")));
+        // Without the key, cargo takes the README of the folder.
+        if manifest.contains("\nreadme") {
+            findings.push(format!("{krate}: its README is README.md, without an entry"));
+        }
+        if !manifest.contains("\ndescription = ") {
+            findings.push(format!("{krate}: add a description"));
+        }
+        for name in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            if fs::read(folder.join(name)).ok() != fs::read(root().join(name)).ok() {
+                findings.push(format!("{krate}: link {name} to that of the repository"));
+            }
+        }
+    }
+    assert_none(&findings);
+}
+
+/// `UG_BLESS=1` writes them.
+#[test]
+fn every_crate_has_a_readme_of_its_own() {
+    let mut findings = Vec::new();
+    for (krate, folder, manifest) in published() {
+        let is_program = folder.join("src").join("main.rs").is_file();
+        let library = read(&folder.join("src").join("lib.rs"));
+        let expected = readmes::of(&krate, &manifest, &library, is_program);
+        let path = folder.join("README.md");
+        if std::env::var_os("UG_BLESS").is_some() {
+            fs::write(&path, &expected).unwrap();
+        }
+        if fs::read_to_string(&path).ok().as_ref() != Some(&expected) {
+            findings.push(format!(
+                "{krate}: README.md is not the beginning of src/lib.rs: \
+                 `UG_BLESS=1 cargo test -p ugtests readme`"
+            ));
+        }
+        let n_lines = expected.lines().count();
+        if !(12..=70).contains(&n_lines) || !expected.contains("\n```rust\n") {
+            findings.push(format!(
+                "{krate}: src/lib.rs begins with an overview and an example; README.md has {n_lines} lines"
+            ));
+        }
+        let targets = expected.split("](").skip(1);
+        let dead = targets.filter(|target| !target.starts_with("https://docs.rs/"));
+        findings.extend(dead.map(|target| format!("{krate}: README.md has a dead link, {target}")));
+    }
+    assert_none(&findings);
+}
+
+/// No library needs a newer compiler than this workspace states. Cargo would choose older ones, but
+/// takes what the lock file has.
+#[test]
+fn no_dependency_needs_a_newer_compiler() {
+    let manifest = read(&root().join("Cargo.toml"));
+    let stated = manifest.lines().find_map(|line| line.strip_prefix("rust-version = "));
+    let stated = stated.expect("the workspace states a version").trim_matches('"');
+    let (newer, n_crates) = dependencies::newer_than(root(), stated);
+    assert!(n_crates > 100, "{n_crates} crates state a version");
+    assert_none(&newer);
 }
 
 #[test]

@@ -86,16 +86,9 @@ pub fn differences(ours: &[Locked], fuzz: &[Locked]) -> Vec<String> {
     fuzz.iter().filter(is_other).map(finding).collect()
 }
 
-/// Licences that are not allowed, and the number of crates that were looked at. Without `UG_CI`
-/// these are the crates of this platform, since others need not be downloaded.
+/// Licences that are not allowed, and the number of crates that were looked at.
 pub fn of_licenses(folder: &Path) -> (Vec<String>, usize) {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["metadata", "--locked", "--format-version", "1"]).current_dir(folder);
-    if std::env::var_os("UG_CI").is_none() {
-        cargo.args(["--offline", "--filter-platform", &host()]);
-    }
-    let metadata: Value = serde_json::from_slice(&output(&mut cargo)).unwrap();
-    let packages = metadata["packages"].as_array().unwrap();
+    let packages = packages(folder);
     let finding = |package: &Value| {
         let license = package["license"].as_str().unwrap_or("no licence");
         let is_allowed = is_allowed(license);
@@ -104,6 +97,39 @@ pub fn of_licenses(folder: &Path) -> (Vec<String>, usize) {
         })
     };
     (packages.iter().filter_map(finding).collect(), packages.len())
+}
+
+/// Packages that state a newer version of Rust than `stated`, and the number of those that state
+/// one.
+pub fn newer_than(folder: &Path, stated: &str) -> (Vec<String>, usize) {
+    let number = |version: &str| -> Vec<u32> {
+        version.split('.').map(|part| part.parse().expect("a number")).collect()
+    };
+    let packages = packages(folder);
+    let states = |package: &Value| Some(package["rust_version"].as_str()?.to_owned());
+    let finding = |package: &Value| {
+        let version = states(package)?;
+        let is_newer = number(&version) > number(stated);
+        is_newer.then(|| {
+            let name = &package["name"];
+            format!("{name} needs Rust {version}: take an older version, or raise `rust-version`")
+        })
+    };
+    let n_stated = packages.iter().filter_map(states).count();
+    (packages.iter().filter_map(finding).collect(), n_stated)
+}
+
+/// The packages of the workspace and its dependencies. Without `UG_CI` these are the crates of this
+/// platform, since others need not be downloaded.
+fn packages(folder: &Path) -> Vec<Value> {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["metadata", "--locked", "--format-version", "1"]).current_dir(folder);
+    if std::env::var_os("UG_CI").is_none() {
+        cargo.args(["--offline", "--filter-platform", &host()]);
+    }
+    let mut metadata: Value = serde_json::from_slice(&output(&mut cargo)).unwrap();
+    let Value::Array(packages) = metadata["packages"].take() else { panic!("no packages") };
+    packages
 }
 
 /// The packages, with their versions, that a library without its default features is built of.

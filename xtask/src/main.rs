@@ -10,6 +10,8 @@
 //! cargo xtask plots figures
 //! cargo xtask page --test
 //! cargo xtask hostile 50000
+//! cargo xtask mutants ugsky --file stars.rs
+//! cargo xtask notices
 //! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
 //! cargo xtask package --check
@@ -26,6 +28,8 @@ mod hostile;
 mod install;
 mod instructions;
 mod mesh;
+mod mutants;
+mod notices;
 mod page;
 mod plot;
 mod plots;
@@ -95,6 +99,12 @@ enum Task {
     /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
     /// missing, and Snakemake in the cache folder of the user.
     Cluster,
+    /// Change formulas one by one, and list the changes that no test of their crate notices
+    ///
+    /// Installs cargo-mutants in target/tools if it is missing.
+    Mutants(mutants::Args),
+    /// Write the notices of everything that is linked into the programs
+    Notices(notices::Args),
     /// Write the documentation as a site, in target/site/book
     Site,
     /// Build a Debian package and an archive of static programs in target/packages
@@ -170,6 +180,8 @@ fn run(task: &Task) -> Outcome<()> {
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => scripts::cluster()?,
+        Task::Mutants(args) => mutants::run(args)?,
+        Task::Notices(args) => notices::write(&mut out, args)?,
         Task::Site => site::write(&mut out)?,
         Task::Package { check } => scripts::package(*check)?,
         Task::Python { manylinux } => scripts::python(*manylinux)?,

@@ -12,6 +12,7 @@ use serde_json::{Map, Value};
 use ugtests::scenes::{self, root, target_dir};
 
 use crate::programs::{self, run};
+use crate::{Outcome, notices};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
@@ -28,8 +29,8 @@ pub struct Args {
     test: bool,
 }
 
-/// Builds `target/page/uglorentz.html`.
-pub fn build(out: &mut impl io::Write, args: &Args) -> io::Result<()> {
+/// Builds `target/page/uglorentz.html`, and `notices.txt` beside it.
+pub fn build(out: &mut impl io::Write, args: &Args) -> Outcome<()> {
     let folder = target_dir().join("page");
     let module = compile(&folder, args.toolchain.as_deref())?;
     let glue = bind(&folder, &module)?;
@@ -42,6 +43,9 @@ pub fn build(out: &mut impl io::Write, args: &Args) -> io::Result<()> {
         .replace("@PAGE@", &web("page.js")?);
     let file = folder.join("uglorentz.html");
     fs::write(&file, &page)?;
+    let mut notices = Vec::new();
+    notices::write(&mut notices, &notices::Args::of("ugweb", TARGET))?;
+    fs::write(folder.join("notices.txt"), notices)?;
     let megabytes = |bytes: usize| bytes as f64 / 1e6;
     writeln!(
         out,
@@ -51,7 +55,10 @@ pub fn build(out: &mut impl io::Write, args: &Args) -> io::Result<()> {
         megabytes(packed(&wasm).len()),
         megabytes(wasm.len())
     )?;
-    if args.test { test(&folder, &file) } else { Ok(()) }
+    if args.test {
+        test(&folder, &file)?;
+    }
+    Ok(())
 }
 
 /// Compiles the crate `ugweb` to WebAssembly.

@@ -7,6 +7,8 @@ use ugscene::HueScale;
 use ugskybox::SceneSky;
 
 /// The options of the filter. [`Config::default`] is what the program does without options.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Velocity of faces and wires that carry none (`-vel`).

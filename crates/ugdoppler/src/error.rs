@@ -7,6 +7,7 @@ use ugskybox::SkyError;
 
 /// Why a scene has no colours as seen.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum Error {
     /// The scene is not at the stage at which it can be coloured.
     #[error(transparent)]

@@ -65,6 +65,7 @@ pub use cli::{Args, main};
 pub use config::{Config, DEFAULT_TOLERANCE};
 pub use error::Error;
 pub use notes::Note;
+pub use ugskybox::SceneSky;
 
 use hue_statements::{HueStatements, LitColor};
 use irradiance::VertexIrradiance;

@@ -4,6 +4,7 @@ use std::fmt;
 
 /// A note on a coloured scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Note {
     /// About the scene itself.
     Scene(ugscene::Note),

@@ -6,6 +6,7 @@ use crate::program::ProgramError;
 
 /// Why there is no frame.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// A program fails.
     #[error(transparent)]

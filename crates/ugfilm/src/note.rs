@@ -2,6 +2,7 @@
 
 /// A note of a program on a frame.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Note {
     /// From `uglorentz`.
     Lorentz(uglorentz::Report),

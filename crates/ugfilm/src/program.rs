@@ -21,6 +21,7 @@ macro_rules! programs {
 
         /// Why a program of a frame failed.
         #[derive(Debug, Error)]
+        #[non_exhaustive]
         pub enum ProgramError {
             $(
                 #[doc = $error]

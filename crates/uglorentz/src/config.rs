@@ -12,6 +12,8 @@ pub const DEFAULT_ERROR: f64 = 0.1e-3;
 pub const DEFAULT_COLOR_ERROR: f64 = 1.5e-3;
 
 /// The options of the filter.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug)]
 pub struct Config {
     /// Velocity of everything, fraction of c; overrides velocities in the scene (`-vel`).

@@ -9,6 +9,7 @@ use crate::attributes::MOST_PARTS;
 
 /// Why a scene cannot be mapped to the scene as seen.
 #[derive(Clone, Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The stage of the scene, a motion or the camera is invalid.
     #[error(transparent)]

@@ -9,6 +9,7 @@ use ugmeshfile::{MeshFormat, Problem};
 
 /// Why a mesh cannot be converted.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The format of the input cannot be detected.
     #[error("{}", unknown_format(name, *foreign))]

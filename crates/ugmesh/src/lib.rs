@@ -57,6 +57,8 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
 };
 
 /// The options of a conversion.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
     /// The input format; by default it is detected from the content and the file extension.

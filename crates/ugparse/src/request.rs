@@ -31,6 +31,7 @@ pub struct Request<'r> {
 
 /// Failure of a [`Request`].
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum RequestError {
     /// The file cannot be read, or the program cannot be run.
     System(io::Error),

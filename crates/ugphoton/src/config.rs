@@ -10,6 +10,8 @@ use crate::error::Error;
 use crate::lens::Lens;
 
 /// Everything besides the scene that affects the bytes of a picture.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Config {
     /// How bodies and camera move.

@@ -12,6 +12,7 @@ pub(crate) const MOST_LIGHTINGS: u64 = 1 << 34;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The text of the scene has errors.
     #[error(transparent)]

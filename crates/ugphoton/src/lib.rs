@@ -84,3 +84,4 @@ pub use ugpicture::{
     Tone, metadata,
 };
 pub use ugscene::{Anchor, CameraOptions, HueScale, MotionOptions, Provenance};
+pub use ugskybox::{SceneSky, SkySource};

@@ -323,6 +323,7 @@ impl Neg for Velocity {
 
 /// Why a velocity is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum VelocityError {
     /// A component, a direction or a rapidity is NaN or infinite.
     NotFinite,

@@ -9,6 +9,7 @@ use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum Error {
     /// The picture has no pixels, or more than [`MAX_PIXELS`] or [`MAX_SIDE`].
     #[error(

@@ -2,6 +2,7 @@
 
 /// A note on a picture. It is no error: `thiserror` writes its text beside each variant.
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
+#[non_exhaustive]
 pub enum Note {
     /// About its scene.
     #[error("{0}")]

@@ -18,6 +18,8 @@ use crate::quantity::{IsoOptions, MapOptions};
 use crate::units::Units;
 
 /// The options of a picture, the same for every renderer.
+///
+/// A later version may have more fields, so complete it with `..PictureOptions::default()`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
     /// Camera options, which override the camera of the scene.

@@ -4,6 +4,17 @@
 //! rounding errors of its own and in axes of its own. So the result must not depend on either: no
 //! choice is made by comparing lengths, of which those of a square are equal, and corners on
 //! straight sides count as such with a tolerance.
+//!
+//! ```
+//! use glam::dvec3;
+//!
+//! // An arrowhead: one corner points inwards.
+//! let arrow = [dvec3(0., 0., 0.), dvec3(2., 1., 0.), dvec3(0., 2., 0.), dvec3(0.5, 1., 0.)];
+//! assert!(!ugpolygon::is_convex(&arrow));
+//! let triangles = ugpolygon::triangulate(&[arrow.to_vec()]).ok_or("no area")?;
+//! assert_eq!(triangles.len(), 2);
+//! # Ok::<(), &str>(())
+//! ```
 
 mod delaunay;
 mod ears;

@@ -8,6 +8,8 @@ use ugscene::{HueScale, Projection, Scene, ShownEffects};
 use ugskybox::SceneSky;
 
 /// Everything besides the scene that affects the bytes of a picture.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// The values that are interpolated between the corners of a face.

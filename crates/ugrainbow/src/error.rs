@@ -7,6 +7,7 @@ use ugskybox::SkyError;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The scene has errors.
     #[error(transparent)]

@@ -116,3 +116,4 @@ pub use ugpicture::{
     PictureFile, PictureOptions, Place, Rendering, TextForm, Tone, VectorFigure, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions, HueScale, Provenance};
+pub use ugskybox::{SceneSky, SkySource};

@@ -82,6 +82,7 @@ pub struct AddedMesh {
 
 /// Why something cannot be part of a scene. Rows are counted from 0.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BuildError {
     /// A name is empty or has other characters than letters, digits, `:`, `_` and `#`, or begins
     /// with a digit.

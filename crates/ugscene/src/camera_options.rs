@@ -30,6 +30,7 @@ pub struct CameraOptions {
 
 /// Why a camera is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CameraError {
     /// The eye point is the view centre, or the direction between them underflows or overflows.
     NoDirection {

@@ -10,6 +10,7 @@ use crate::{
 
 /// A note on a scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Note {
     /// The scene has no camera.
     DefaultCamera(DefaultCamera),

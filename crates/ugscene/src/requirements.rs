@@ -9,6 +9,7 @@ use crate::{BodyId, ColorScale, ColorStage, ColorValue, HueScale, Scene, Tint};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum StageError {
     /// Rest shapes are required, but positions are as seen.
     GeometryAsSeen,

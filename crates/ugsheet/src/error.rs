@@ -8,6 +8,7 @@ pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// Why a sheet cannot be made.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
     /// There are no pictures.
     #[error("there are no pictures; name PNG files")]

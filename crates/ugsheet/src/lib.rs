@@ -64,6 +64,8 @@ pub struct Picture {
 }
 
 /// The options of a sheet.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Pictures per row; by default such that there are about as many columns as rows.

@@ -9,6 +9,7 @@ use crate::texels::Texels;
 
 /// Why pictures are no panorama.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PanoramaError {
     /// The number of texels is not width × height, or 0.
     Size,

@@ -34,6 +34,7 @@ pub const ALL_NM: Range<f64> = 0.0..f64::INFINITY;
 
 /// Why there is no table of a [`Basis`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BasisError {
     /// The temperatures of [`Basis::Planck`].
     Temperatures([f64; 3]),

@@ -8,6 +8,7 @@ use ugsky::{BasisError, PanoramaError};
 
 /// Why files are no panorama.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum OpenError {
     /// A file is no picture that can be read.
     #[error("{error}")]
@@ -24,6 +25,7 @@ pub enum OpenError {
 
 /// Why a scene has no sky.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum SkyError {
     /// The file of the sky was not opened before the picture was drawn.
     #[error("the sky `{}` has not been opened", .0.display())]

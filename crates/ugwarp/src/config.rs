@@ -13,6 +13,8 @@ use ugsky::{ALL_NM, Basis, StarOptions};
 use crate::error::Error;
 
 /// Everything besides the panorama that affects the bytes of a picture.
+///
+/// A later version may have more fields, so complete it with `..Config::default()`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Velocity of the camera in the frame of the panorama.

@@ -7,6 +7,7 @@ use ugskybox::OpenError;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// Files are no panorama.
     #[error(transparent)]

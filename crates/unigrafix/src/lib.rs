@@ -16,18 +16,36 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Each module is a crate of its own, and the function of a program; none has a command line here.
-//! [`physics`] has the formulas, [`scene`] scenes in memory, built from arrays or read by [`parse`]
-//! from text.
+//! Each module is a crate of its own; those of programs have the function of the program, and none
+//! has a command line here:
+//!
+//! - [`parse`] reads scenes from text, [`mesh`] and [`meshfile`] from OBJ, PLY, STL, OFF and glTF;
+//!   [`scene`] builds them from arrays;
+//! - [`lorentz`], [`doppler`] and [`rainbow`] draw them, [`photon`] traces rays, [`warp`] draws
+//!   panoramas, [`film`] the frames of a film, [`sheet`] several pictures on one;
+//! - [`physics`] has the formulas, [`sky`] and [`skybox`] skies, [`light`] lamps and colours,
+//!   [`picture`] and [`image`] what pictures have in common and their files, [`pipe`] progress.
+//!
+//! The types of every public field of a `Config` are in one of them. A `Config` may have more
+//! fields in a later version, so complete it: `Config { time: 2.0, ..Config::default() }`; and
+//! match errors and notes with a wildcard.
 
 pub use glam;
 pub use ugdoppler as doppler;
+pub use ugfilm as film;
 pub use ugimage as image;
+pub use uglight as light;
 pub use uglorentz as lorentz;
+pub use ugmesh as mesh;
+pub use ugmeshfile as meshfile;
 pub use ugparse as parse;
 pub use ugphoton as photon;
 pub use ugphysics as physics;
+pub use ugpicture as picture;
+pub use ugpipe as pipe;
 pub use ugrainbow as rainbow;
 pub use ugscene as scene;
+pub use ugsheet as sheet;
 pub use ugsky as sky;
+pub use ugskybox as skybox;
 pub use ugwarp as warp;

@@ -93,6 +93,7 @@ pub struct SeenLight {
 
 /// Why a motion is impossible, or no event is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum WorldLineError {
     /// A number is NaN or infinite, or becomes so at some own time.
     NotFinite,

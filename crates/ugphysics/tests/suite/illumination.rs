@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec3, Vec4Swizzles};
 use ugphysics::{
     Event, IncidentLight, Lorentz, Velocity, ambient_illumination, compose, doppler_factor,
-    illumination, illumination_from_afar,
+    illumination, illumination_along, illumination_from_afar, seen_position,
 };
 
 use crate::{along_x, beta, directions, near, near_vector};
@@ -102,6 +102,32 @@ fn check_by_bisection(p: DVec3, delay: f64, v: Velocity, l: DVec3, v_light: Velo
     let k = scatter.x - shone.x;
     let energy = |u: Velocity| u.gamma() * k.length() - u.proper().dot(k);
     near("D", light.doppler, energy(v) / energy(v_light), 1e-8);
+    // The direction in which the light leaves, between the same events in the frame of the lamp.
+    let to_lamp = Lorentz::boost(v_light).inverse();
+    let way = to_lamp.apply(scatter).x - to_lamp.apply(shone).x;
+    near_vector("leaving", light.leaving, way.normalize(), 1e-8);
+}
+
+/// In its own frame a lamp at l shines at p along (p − l)/|p − l|, whatever the frame is in which
+/// both rest; one far away along the line from it.
+#[test]
+fn light_leaves_a_lamp_towards_the_surface() {
+    for (p, v, l, _) in settings() {
+        let ahead = (p - l).normalize();
+        near_vector("leaving", light_on(p, v, l, v).leaving, ahead, 1e-15);
+        let afar = illumination_from_afar(v, l, v).expect("a direction");
+        near_vector("leaving, from afar", afar.leaving, -l.normalize(), 1e-15);
+        let seen = seen_position(l - p, v);
+        let along = illumination_along(seen, v, v).expect("a direction");
+        near_vector("leaving along a way", along.leaving, ahead, 1e-13 * v.gamma() * v.gamma());
+    }
+    // A lamp that moves against the surface sends it light in its own frame as the limit does.
+    for (p, v, l, v_light) in settings() {
+        let far = 1e9 * l;
+        let near_by = light_on(p, v, far, v_light).leaving;
+        let afar = illumination_from_afar(v, l, v_light).expect("a direction").leaving;
+        near_vector("leaving from far away", near_by, afar, 1e-6);
+    }
 }
 
 /// Computed from another camera frame, the light on a surface is the same: only the axes are

@@ -32,6 +32,47 @@ fn twins_meet_again() {
     assert!(home.scene_from_axes.velocity_of_frame().unwrap().speed() < 1e-15);
 }
 
+/// Frames in frames: their axes are the product of the matrices of each, however often they are
+/// nested, in whatever directions they move and turn; and the event of A at own time 0 is that of
+/// the products, too.
+#[test]
+fn nested_frames_are_products_of_matrices() {
+    let frame = |beta: [f64; 3], turn: [f64; 3]| {
+        let velocity = Velocity::from_beta(beta.into()).unwrap();
+        let shift = Event { t: 0.3, x: DVec3::new(0.1, -2.0, 0.4) };
+        InertialFrame { turn: turn.into(), shift, ..InertialFrame::new(velocity) }
+    };
+    let flat = [0.0; 3];
+    let all = [
+        frame([0.5, 0.0, 0.0], flat),
+        frame([0.0, 0.4, 0.0], flat),
+        frame([0.0, 0.1, 0.6], [0.3, -0.2, 0.1]),
+        frame([-0.7, 0.3, 0.2], [-1.0, 0.4, 2.0]),
+        frame([0.9, 0.1, -0.1], flat),
+    ];
+    let entries = |axes: Lorentz| axes.matrix().to_cols_array();
+    let mut n_compared = 0;
+    for first in 0..all.len() {
+        let mut nested = all[first];
+        let (mut axes, mut start) = (all[first].axes(), all[first].start());
+        for next in (0..all.len()).filter(|&next| next != first) {
+            nested = nested.carrying(&all[next]).unwrap();
+            start = start + axes.apply(all[next].start());
+            axes = axes * all[next].axes();
+            let gamma = axes.matrix().w_axis.w.abs();
+            let pairs = entries(nested.axes()).into_iter().zip(entries(axes));
+            let worst = pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+            // Velocities in texts are rounded to 17 digits; boosts magnify that by γ².
+            assert!(worst < 1e-14 * gamma * gamma, "{first} {next}: {worst:e}, γ {gamma}");
+            let got = nested.start();
+            let off = (got.x - start.x).length() + (got.t - start.t).abs();
+            assert!(off < 1e-13 * gamma * gamma, "{first} {next}: {off:e}");
+            n_compared += 1;
+        }
+    }
+    assert_eq!(n_compared, 20);
+}
+
 /// Thomas precession: the axes turn by −2π(γ − 1) a revolution.
 #[test]
 fn axes_on_an_orbit_turn_back() {

@@ -12,6 +12,7 @@ use crate::remedies::look_alike;
 /// The operator `?` converts any library error to [`Failure::Failed`]. For errors in the command
 /// line, write `.map_err(Failure::usage)?`.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum Failure {
     /// The command line is invalid. Status 2.
     Usage(String),

@@ -71,6 +71,7 @@ pub enum Anchor {
 
 /// Why the motions of a scene are invalid.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum MotionError {
     /// Positions or colours of the scene are as seen already.
     Stage(StageError),

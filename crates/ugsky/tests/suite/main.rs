@@ -5,6 +5,7 @@
 mod colours;
 mod skies;
 mod spectra;
+mod stars;
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
