@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use image::imageops::{FilterType, resize};
 use image::{RgbImage, open};
+use rayon::prelude::*;
 use ugtests::documents::{Page, prepare, resized, shrunk, with_options, written_files};
 use ugtests::scenes;
 
@@ -49,13 +50,13 @@ pub struct Args {
 pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     let programs = args.programs.clone().unwrap_or_else(programs::released);
     let is_wanted = |path: &str| args.only.as_ref().is_none_or(|only| path.contains(only));
-    let mut stale = Vec::new();
-    for (path, size) in PAGES.into_iter().filter(|(path, _)| is_wanted(path)) {
+    let wanted = PAGES.into_iter().filter(|(path, _)| is_wanted(path));
+    if args.check {
+        let pages: Vec<Page> = wanted.map(|(path, _)| Page::read(path)).collect();
+        return report(out, pages.par_iter().map(|page| check(page, &programs)).collect());
+    }
+    for (path, size) in wanted {
         let page = Page::read(path);
-        if args.check {
-            stale.extend(check(out, &page, &programs)?);
-            continue;
-        }
         let has_small = page.text.contains(&format!("/{SMALL}/"));
         for (scale, part) in [(1.0, ""), (0.5, SMALL)].into_iter().take(1 + usize::from(has_small))
         {
@@ -73,13 +74,7 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
             store(&page, folder.path(), part)?;
         }
     }
-    if stale.is_empty() {
-        return Ok(());
-    }
-    Err(io::Error::other(format!(
-        "stale pictures, which `cargo xtask gallery` draws anew:\n{}",
-        stale.join("\n")
-    )))
+    Ok(())
 }
 
 /// The commands to run for the pictures of a page.
@@ -126,8 +121,28 @@ fn store(page: &Page, folder: &Path, part: &str) -> io::Result<()> {
     Ok(())
 }
 
-/// Draws the pictures of a page coarsely, and returns which of the stored ones are stale, and why.
-fn check(out: &mut impl Write, page: &Page, programs: &Path) -> io::Result<Vec<String>> {
+/// Writes the findings of all pages, and fails if a picture is stale.
+fn report(out: &mut impl Write, checked: io::Result<Vec<Checked>>) -> io::Result<()> {
+    let checked = checked?;
+    checked.iter().try_for_each(|page| writeln!(out, "{}", page.summary))?;
+    let stale: Vec<&str> =
+        checked.iter().flat_map(|page| &page.stale).map(String::as_str).collect();
+    if stale.is_empty() {
+        return Ok(());
+    }
+    let stale = stale.join("\n");
+    Err(io::Error::other(format!("stale; `cargo xtask gallery` draws them anew:\n{stale}")))
+}
+
+/// The findings of a page.
+struct Checked {
+    summary: String,
+    /// The stale pictures, and why they are.
+    stale: Vec<String>,
+}
+
+/// Draws the pictures of a page coarsely, and compares those that are stored.
+fn check(page: &Page, programs: &Path) -> io::Result<Checked> {
     let folder = tempfile::tempdir()?;
     prepare(folder.path(), programs);
     let is_still = |command: &&String| !command.contains(".gif") && !command.contains(".mp4");
@@ -157,9 +172,8 @@ fn check(out: &mut impl Write, page: &Page, programs: &Path) -> io::Result<Vec<S
             }
         }
     }
-    writeln!(out, "{}: {n_inputs} inputs, difference up to {greatest:.3}", page.path)?;
-    out.flush()?;
-    Ok(stale)
+    let summary = format!("{}: {n_inputs} inputs, difference up to {greatest:.3}", page.path);
+    Ok(Checked { summary, stale })
 }
 
 /// What a picture records of its inputs, in order: each the SHA-256 of a scene, and that of the
@@ -187,7 +201,6 @@ fn difference(a: &Path, b: &Path) -> io::Result<f64> {
         Ok(resize(&picture, WIDTH, HEIGHT, FilterType::Triangle))
     };
     let (a, b) = (reduced(a)?, reduced(b)?);
-    let sum: f64 =
-        a.iter().zip(b.iter()).map(|(&a, &b)| f64::from(a.abs_diff(b))).sum();
+    let sum: f64 = a.iter().zip(b.iter()).map(|(&a, &b)| f64::from(a.abs_diff(b))).sum();
     Ok(sum / 255.0 / f64::from(3 * WIDTH * HEIGHT))
 }

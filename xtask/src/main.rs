@@ -7,6 +7,7 @@
 //! cargo xtask instructions
 //! cargo xtask scaling
 //! cargo xtask gallery
+//! cargo xtask gallery --check
 //! cargo xtask plots figures
 //! cargo xtask page --test
 //! cargo xtask hostile 50000

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use crate::split::vertex_names;
 use crate::words::messages;
 use crate::{
-    Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames,
-    Vertex, VertexId, rest_positions,
+    Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
+    VertexId, rest_positions,
 };
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest

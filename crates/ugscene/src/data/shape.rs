@@ -77,8 +77,12 @@ impl RoundShape {
         let volume = units[0].dot(units[1].cross(units[2])).abs();
         let has_hole = if shape == FaceShape::Ring { inner > 0.0 } else { inner == 0.0 };
         // NaN fails the comparisons.
-        (origin.is_finite() && volume > LEAST && has_hole && inner < 1.0)
-            .then_some(Self { shape, origin, axes, inner })
+        (origin.is_finite() && volume > LEAST && has_hole && inner < 1.0).then_some(Self {
+            shape,
+            origin,
+            axes,
+            inner,
+        })
     }
 
     /// From the corners of a round face, contour after contour; `None` as in [`RoundShape::new`].

@@ -74,7 +74,11 @@ fn mistakes_have_answers() {
     check("-cube", 2, "give -sz W H with W = 6 H");
     check("-dt exr -ch time", 2, "the channels of a panorama are D, direction");
     check("--basis green", 2, "--basis takes mixture or three temperatures");
-    check("--basis 5000", 2, "`5000` is no basis: --basis takes mixture or three temperatures; 1 of");
+    check(
+        "--basis 5000",
+        2,
+        "`5000` is no basis: --basis takes mixture or three temperatures; 1 of",
+    );
     check("--basis 5000 6000 sky.png", 2, "three temperatures; 2 of them are given");
     check("--basis 5000 5000 9000", 2, "are no basis of colours");
     check("-part 10 -10 0 20", 2, "must increase from west to east");
