@@ -380,6 +380,7 @@ pub fn text_from_arrays<'py>(
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut text = String::new();
     let of = prefix.strip_suffix('_').map_or_else(String::new, |mesh| format!(" of {mesh}"));
+    mark_rows(&mut text, "colors", &of);
     let mut palette = Palette { prefix, numbers: HashMap::new() };
     let of_faces = palette.rows(&mut text, rows(colors.as_ref())?);
     let of_vertices = palette.rows(&mut text, rows(vertex_colors.as_ref())?);

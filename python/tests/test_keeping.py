@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import multiprocessing
 import pickle
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -84,10 +85,11 @@ def drawn_elsewhere(speed: float) -> ug.Picture:
     return ug.Scene.parse(TRIANGLE).photon(velocity=(speed, 0, 0), keep_in_view=True, **SMALL)
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="fork is for Linux")
 def test_pictures_come_from_other_processes():
     speeds = [0.1, 0.5]
-    with multiprocessing.get_context("spawn").Pool(2) as pool:
-        pictures = pool.map_async(drawn_elsewhere, speeds).get(timeout=120)
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        pictures = pool.map_async(drawn_elsewhere, speeds).get(timeout=60)
     assert [picture.to_bytes() for picture in pictures] == [drawn_elsewhere(speed).to_bytes() for speed in speeds]
 
 
@@ -133,7 +135,7 @@ def test_threads(tmp_path):
         seen = scene.lorentz(velocity=(0.5, 0, 0), keep_in_view=True, **options).doppler(**options)
         file = tmp_path / "film.gif"
         scene.film(file, frames=3, time="0..1", **SMALL, **options)
-        sky = ug.warp(np.zeros((8, 16, 3), np.uint8), **SMALL, **options)
+        sky = ug.warp(np.zeros((32, 64, 3), np.uint8), **SMALL, **options)
         pictures = [seen.render(**SMALL, **options), scene.photon(**SMALL, nt=threads), sky]
         outcomes.append([file.read_bytes(), *(picture.to_bytes() for picture in pictures)])
         assert pictures[1].light.shape == (45, 60, 3)

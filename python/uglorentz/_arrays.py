@@ -32,13 +32,15 @@ class Texture(NamedTuple):
     #: "-blend", "-mask 0.5", or nothing for a picture whose alpha is not used.
     alpha: str = ""
 
-    def statements(self, color: str) -> str:
-        """The statements of the colour of this name."""
+    def statements(self, prefix: str) -> str:
+        """The statements of its colour, with the place that errors have: see `mark_rows` in scene.rs."""
+        color = f"{prefix}picture"
         if any(mark in self.name for mark in '"\r\n'):
             raise Error(f"texture: the name {self.name!r} has a quotation mark or a line end: rename the file")
         numbers = " ".join(repr(part) for part in self.mean)
         factor = "" if self.factor == (1.0,) * 4 else f" -factor {' '.join(repr(part) for part in self.factor)}"
-        return f'c_rgb {color} {numbers};\nc_tex {color} "{self.name}"{factor} {self.alpha};\n'
+        of = f" of {prefix[:-1]}" if prefix else ""
+        return f'# 0 "<texture{of}>"\nc_rgb {color} {numbers};\nc_tex {color} "{self.name}"{factor} {self.alpha};\n'
 
 
 class Mesh(NamedTuple):
@@ -55,8 +57,8 @@ class Mesh(NamedTuple):
 
     def text(self, prefix: str = "") -> bytes:
         """Its statements. prefix: of all names in them, for a scene of several meshes."""
-        picture = None if self.texture is None else f"{prefix}picture"
-        head = "" if self.texture is None or picture is None else self.texture.statements(picture)
+        head = "" if self.texture is None else self.texture.statements(prefix)
+        picture = f"{prefix}picture" if head else None
         return head.encode(errors="surrogateescape") + _core.text_from_arrays(
             self.vertices, self.corners, self.sizes, self.colors, self.velocities, self.vertex_colors,
             self.coordinates, prefix, picture,

@@ -302,4 +302,4 @@ def _file_of(array: Any) -> bytes:
         raise Error(f"sky[{row}, {column}] is not finite: {pixels[row, column].tolist()}")
     height, width, _ = pixels.shape
     # Rows of PFM go from the bottom to the top.
-    return b"PF\n%d %d\n-1.0\n" % (width, height) + pixels[::-1].astype("<f4").tobytes()
+    return b"PF\n%d %d\n-1.0\n" % (width, height) + bytes(pixels[::-1].astype("<f4").tobytes())

@@ -234,25 +234,36 @@ def spellings() -> dict[str, Option]:
 
 
 #: Lines of a message with the place and the text of a row of an array: see `mark_rows` in scene.rs.
-ROW = re.compile(r"\n *(-->|:::) <(?P<array>vertices|faces)(?P<of> of [^>]*)?>:(?P<row>\d+):\d+(\n *\d* *\|.*)*")
+ROW = re.compile(r"\n *(-->|:::) <(?P<array>vertices|faces|texture|colors)(?P<of> of [^>]*)?>:(?P<row>\d+):\d+(\n *\d* *\|.*)*")
 
 
 def of_rows(text: str) -> str:
     """A message that names rows of arrays, in place of a text that the package wrote."""
-    parts = re.split(r"(?m)^(?=(?:error|warning): )", text)
-    for idx, part in enumerate(parts):
-        # The first place is where it is wrong; others are left out.
-        found = ROW.search(part)
-        if found is not None:
-            place = f"{found['array']}[{found['row']}]{found['of'] or ''}"
-            part = re.sub(r"^((?:error|warning): )?", rf"\g<1>{place}: ", ROW.sub("", part), count=1)
-            parts[idx] = re.sub(r"\n *\|(?=\n|$)", "", part)
-    return "".join(parts)
+
+    def reworded(part: str) -> str:
+        first = []
+
+        def place(found: re.Match[str]) -> str:
+            # Statements of colours are not in the order of rows.
+            number = f"[{found['row']}]" if found["array"] in ("vertices", "faces") else ""
+            row = f"{found['array']}{number}{found['of'] or ''}"
+            if found[1] == "-->":
+                first.append(row)
+                return ""
+            return f"\n  ::: {row}"
+
+        part = ROW.sub(place, part)
+        if not first:
+            return part
+        part = re.sub(r"^((?:error|warning): )?", rf"\g<1>{first[0]}: ", part, count=1)
+        return re.sub(r"\n *\|(?=\n|$)", "", part)
+
+    return "".join(map(reworded, re.split(r"(?m)^(?=(?:error|warning): )", text)))
 
 
 def in_python(text: str) -> str:
     """A message of a program with keywords in the place of options, and methods of programs."""
-    if "<vertices" in text or "<faces" in text:
+    if "--> <" in text:
         text = of_rows(text)
 
     def keyword_of(match: re.Match[str]) -> str:
