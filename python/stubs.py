@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from uglorentz._words import METHODS, Option, options, summary
+from uglorentz._words import METHODS, THREADS, Option, options, summary
 
 FILE = Path(__file__).parent / "uglorentz" / "_options.pyi"
 
@@ -17,7 +17,14 @@ from typing import Any, Literal, TypedDict, Union
 import numpy as np
 
 Vector = Union[Sequence[float], np.ndarray[Any, Any]]
+Values = Union[Vector, Sequence[Vector]]
 Text = Union[str, os.PathLike[str]]
+'''
+
+THREADED = f'''    threads: int | None
+    """{THREADS}"""
+    nt: int | None
+    """The same as threads."""
 '''
 
 #: Values that are text.
@@ -31,12 +38,14 @@ def type_of(program: str, option: Option) -> str:
         return "str | Sequence[str]"
     if option.values[0] == "QUANTITY":
         return "str | Sequence[str | float]"
+    # Over the time of a film, sequences have values of sequences.
+    vector = "Values" if program == "ugfilm" else "Vector"
     if option.is_repeated:
-        return "Vector | str"
+        return f"{vector} | str"
     if option.values[0] in TEXTS or option.keyword == "only":
         return "Text"
-    several = "Vector" if len(option.values) > 1 else ""
-    # Over the time of a film, numbers are texts.
+    several = vector if len(option.values) > 1 else "Vector" if program == "ugfilm" else ""
+    # Over the time of a film, numbers may be texts.
     single = "float | str" if program == "ugfilm" or option.values[0] not in ("X", "Y", "W", "H") else ""
     if option.n_needed > 1 and program != "ugfilm":
         single = ""
@@ -57,11 +66,12 @@ def keys(program: str, chosen: list[Option]) -> str:
 def stub() -> str:
     parts = [HEAD]
     common = [option for option in options("uglorentz") if option.is_common]
-    parts.append(f"class Reading(TypedDict, total=False):\n{keys('uglorentz', common)}\n")
+    parts.append(f"class Reading(TypedDict, total=False):\n{THREADED}{keys('uglorentz', common)}\n")
     for program, method in METHODS.items():
         own = [option for option in options(program) if not option.is_common]
         base = "Reading" if program in ("ugwarp", "ugfilm") else "TypedDict"
-        parts.append(f"class {method.capitalize()}({base}, total=False):\n{keys(program, own)}\n")
+        threads = "" if base == "Reading" else THREADED
+        parts.append(f"class {method.capitalize()}({base}, total=False):\n{threads}{keys(program, own)}\n")
     return "\n".join(parts)
 
 

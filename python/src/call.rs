@@ -65,7 +65,7 @@ impl Call {
 }
 
 /// The outcome of a computation without the interpreter lock. `progress`: a function that is called
-/// with the step, the parts that are done and all parts.
+/// with the step, the parts that are done and all parts. `n_threads`: all of the machine without it.
 ///
 /// # Errors
 /// An interrupt, or an exception of `progress`, both of which stop the computation; no thread can
@@ -73,6 +73,7 @@ impl Call {
 pub fn run<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
+    n_threads: Option<usize>,
     work: impl FnOnce(&Arc<Call>) -> T + Send,
 ) -> PyResult<T> {
     let call = Arc::new(Call::default());
@@ -82,7 +83,7 @@ pub fn run<T: Send>(
             let compute = || {
                 // Dropped at the end, also by a panic.
                 let _sender = sender;
-                in_pool(|| work(&call))
+                in_pool(n_threads, || work(&call))
             };
             let worker = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, compute)?;
             let mut outcome = Ok(());
@@ -109,23 +110,31 @@ pub fn remember_process() {
     PROCESS.get_or_init(process::id);
 }
 
+/// Threads other than those of rayon itself: their process and their number, 0 for all of the
+/// machine.
+type OwnThreads = ((u32, usize), Arc<ThreadPool>);
+
 /// Does some work with threads that exist: a process that `fork` made has none of those before, so
-/// it starts others.
-fn in_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    static FORKED: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
-    let id = process::id();
-    if PROCESS.get() == Some(&id) {
+/// it starts others, as does a call with a number of its own.
+fn in_pool<T: Send>(n_threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    static LAST: Mutex<Option<OwnThreads>> = Mutex::new(None);
+    let key = (process::id(), n_threads.unwrap_or(0));
+    if PROCESS.get() == Some(&key.0) && n_threads.is_none() {
         return work();
     }
-    let mut forked = lock(&FORKED);
-    let pool = match &*forked {
-        Some((process, pool)) if *process == id => Some(pool.clone()),
-        _ => ThreadPoolBuilder::new().stack_size(STACK).build().ok().map(Arc::new),
+    let mut last = lock(&LAST);
+    let pool = match &*last {
+        Some((made_for, pool)) if *made_for == key => Some(pool.clone()),
+        _ => {
+            let pool = ThreadPoolBuilder::new().num_threads(key.1).stack_size(STACK);
+            pool.build().ok().map(Arc::new)
+        }
     };
     let Some(pool) = pool else { return work() };
+    let before = last.replace((key, pool.clone()));
     // A pool of another process cannot be dropped: its threads are not there to end.
-    std::mem::forget(forked.replace((id, pool.clone())).filter(|(process, _)| *process != id));
-    drop(forked);
+    std::mem::forget(before.filter(|((process, _), _)| *process != key.0));
+    drop(last);
     pool.install(work)
 }
 

@@ -10,7 +10,7 @@ use ugfilm::{FilmSubject, Note, ParsedCommand, Pipe};
 use ugimage::{LinearFrame, Samples};
 use ugparse::Parsed;
 use ugpicture::Rendering;
-use ugpipe::Context;
+use ugpipe::{Context, Input};
 use ugscene::{BodyBoxes, TimesInView};
 
 use crate::call::{self, Call};
@@ -32,7 +32,8 @@ pub struct Drawing {
 
 /// The subject of a picture.
 enum Subject {
-    Scene(Arc<Parsed>),
+    /// A scene, and the files that it named.
+    Scene(Arc<Parsed>, Vec<Input>),
     Sky(Arc<ugwarp::Opened>, String),
 }
 
@@ -40,18 +41,20 @@ enum Subject {
 impl Drawing {
     /// Draws a scene or a sky. `camera`: the name of the camera that the words choose.
     #[new]
-    #[pyo3(signature = (subject, words, camera=None, progress=None))]
+    #[pyo3(signature = (subject, words, camera=None, progress=None, threads=None))]
     fn new(
         py: Python<'_>,
         subject: &Bound<'_, PyAny>,
         words: Vec<String>,
         camera: Option<&str>,
         progress: Option<Py<PyAny>>,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
         let subject = match subject.cast::<PyScene>() {
             Ok(scene) => {
                 let chosen = scene.get().with_camera(camera);
-                Subject::Scene(chosen.map_err(|refused| refused.exception(py))?)
+                let chosen = chosen.map_err(|refused| refused.exception(py))?;
+                Subject::Scene(chosen, scene.get().files())
             }
             Err(_) => {
                 let (opened, origin) = subject.cast::<PySky>()?.get().subject();
@@ -59,12 +62,12 @@ impl Drawing {
             }
         };
         let draw = |call: &Arc<Call>| Self::draw(&subject, &words, call);
-        call::run(py, progress, draw)?.map_err(|refused| refused.exception(py))
+        call::run(py, progress, threads, draw)?.map_err(|refused| refused.exception(py))
     }
 
     /// The bytes of its file.
     fn file<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let file = call::run(py, None, |_| self.rendering.clone().into_file())?;
+        let file = call::run(py, None, None, |_| self.rendering.clone().into_file())?;
         Ok(PyBytes::new(py, &file))
     }
 
@@ -139,14 +142,16 @@ impl Drawing {
         let name = program.provenance().program;
         let mut pipe = Pipe::new(vec![program]);
         if let Some(sky) = pipe.sky() {
-            if let Subject::Scene(parsed) = subject {
+            let mut context = Context::hosted(&common, name, line.clone(), None, call.clone());
+            if let Subject::Scene(parsed, files) = subject {
                 sky.or_stated(parsed.scene.sky.as_ref());
+                context = context.beside(files.clone());
             }
-            sky.open(&common, &Context::hosted(&common, name, line.clone(), None, call.clone()))?;
+            sky.open(&common, &context)?;
         }
         pipe.lines = vec![line.clone()];
         let subject = match subject {
-            Subject::Scene(parsed) => FilmSubject::Scene(&parsed.scene),
+            Subject::Scene(parsed, _) => FilmSubject::Scene(&parsed.scene),
             Subject::Sky(opened, origin) => FilmSubject::Panorama(opened, origin),
         };
         let (rendering, notes) = pipe.draw_with(subject, &**call).map_err(Refused::of)?;

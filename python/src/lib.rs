@@ -40,7 +40,7 @@ mod _core {
     #[pymodule_export]
     use super::sky::PySky;
     #[pymodule_export]
-    use super::tools::{channels, formats, options};
+    use super::tools::{channels, example, examples, formats, options};
     use super::*;
 
     #[pymodule_init]

@@ -161,7 +161,7 @@ pub fn physics<'py>(
         }
         Ok::<_, String>(numbers)
     };
-    let numbers = call::run(py, None, all)?;
+    let numbers = call::run(py, None, None, all)?;
     let numbers = numbers.map_err(|why| Refused::Failure(Failure::Failed(why)).exception(py))?;
     PyArray1::from_vec(py, numbers).reshape([n_rows, n_out])
 }

@@ -1,8 +1,9 @@
 //! Scenes: read, moved, coloured.
 
+use std::collections::HashMap;
 use std::ffi::OsString;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Parser;
@@ -11,8 +12,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{Error, FilmItem, Note, ParsedCommand, Program, ProgramError};
 use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, Words, parse_words};
-use ugscene::{BodyBoxes, CameraOptions, Provenance};
+use ugpipe::{CommonArgs, Context, Input, MAX_INPUT, ToolArgs, Words, parse_words};
+use ugscene::{BodyBoxes, CameraOptions, Provenance, StatedSky};
 
 use crate::call::{self, Call};
 use crate::error::{Refused, wrong};
@@ -23,6 +24,8 @@ pub struct PyScene {
     parsed: Arc<Parsed>,
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
+    /// What it, or the scene from which programs made it, was read from.
+    origin: Arc<ReadFrom>,
     /// The time of the picture, of a scene whose positions are as seen, even if nothing moves.
     time: Option<f64>,
     /// What was noticed when it was made.
@@ -32,6 +35,25 @@ pub struct PyScene {
     #[pyo3(get)]
     warning: Option<String>,
 }
+
+/// All that a scene was read from, with which it can be read again.
+struct ReadFrom {
+    /// Options of reading.
+    words: Vec<String>,
+    path: Option<PathBuf>,
+    /// The text; `None` if it is that of `source`, in which nothing was included.
+    text: Option<Vec<u8>>,
+    source: Arc<Source>,
+    /// Files that it named, and the output of programs.
+    files: Vec<Input>,
+}
+
+/// A file in memory, or anything with its name.
+type NamedBytes = (String, Vec<u8>);
+
+/// The arguments with which a scene is read again.
+type ReadAgain<'py> =
+    (Vec<String>, Option<PathBuf>, Bound<'py, PyBytes>, Vec<(String, Bound<'py, PyBytes>)>);
 
 /// The options of reading.
 #[derive(Clone, Debug, Parser)]
@@ -50,14 +72,20 @@ impl ToolArgs for Reading {
 }
 
 /// The words of a command line, of which the first is the name of a program.
-pub fn words_of_system(words: &[String], file: Option<PathBuf>) -> Vec<OsString> {
+pub fn words_of_system(words: &[String], file: Option<&Path>) -> Vec<OsString> {
     let words = words.iter().map(OsString::from);
-    words.chain(file.into_iter().flat_map(|file| ["--".into(), file.into_os_string()])).collect()
+    words.chain(file.into_iter().flat_map(|file| ["--".into(), file.into()])).collect()
 }
 
-/// A text in memory, as a program reads it from standard input.
-pub fn input(text: Vec<u8>) -> Input {
-    Input { name: "<stdin>".to_owned(), text }
+/// A text in memory: that of a file, or as a program reads it from standard input.
+pub fn input(path: Option<&Path>, text: Vec<u8>) -> Input {
+    let name = path.map_or_else(|| "<stdin>".to_owned(), |path| path.display().to_string());
+    Input { name, text }
+}
+
+/// Files in memory.
+pub fn inputs(files: Vec<NamedBytes>) -> Vec<Input> {
+    files.into_iter().map(|(name, text)| Input { name, text }).collect()
 }
 
 /// The findings on a scene in text, one each.
@@ -68,36 +96,49 @@ fn notes_on(findings: Diagnostics) -> Vec<String> {
 
 #[pymethods]
 impl PyScene {
-    /// Reads a file, or the text of one. `words`: options of reading.
+    /// Reads a file, or the text of one. `words`: options of reading. `files`: those that the text
+    /// names, in memory.
     #[staticmethod]
-    #[pyo3(signature = (words, path=None, text=None))]
+    #[pyo3(signature = (words, path=None, text=None, files=Vec::new(), threads=None))]
     fn read(
         py: Python<'_>,
         words: Vec<String>,
         path: Option<PathBuf>,
         text: Option<Vec<u8>>,
+        files: Vec<NamedBytes>,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
-        let words = words_of_system(&words, path);
-        let read = move |call: &Arc<Call>| Self::open(words, text.map(input), call);
-        call::run(py, None, read)?.map_err(|refused| refused.exception(py))
+        let read = move |call: &Arc<Call>| Self::open(words, path, text, files, call);
+        call::run(py, None, threads, read)?.map_err(|refused| refused.exception(py))
     }
 
     /// The scene as a program makes it. `camera`: the name of the camera that its words choose.
-    #[pyo3(signature = (words, camera=None, progress=None))]
+    #[pyo3(signature = (words, camera=None, progress=None, threads=None))]
     fn filtered(
         &self,
         py: Python<'_>,
         words: Vec<String>,
         camera: Option<&str>,
         progress: Option<Py<PyAny>>,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
         let filter = |call: &Arc<Call>| self.filter(&words, camera, call);
-        call::run(py, progress, filter)?.map_err(|refused| refused.exception(py))
+        call::run(py, progress, threads, filter)?.map_err(|refused| refused.exception(py))
+    }
+
+    /// What it, or the scene from which programs made it, was read from: the options, path, text
+    /// and files with which [`Self::read`] reads it again.
+    fn origin<'py>(&self, py: Python<'py>) -> ReadAgain<'py> {
+        let ReadFrom { words, path, text, source, files } = &*self.origin;
+        let bytes = |bytes: &[u8]| PyBytes::new(py, bytes);
+        let files = files.iter().map(|file| (file.name.clone(), bytes(&file.text))).collect();
+        let text = bytes(text.as_ref().unwrap_or(&source.text));
+        (words.clone(), path.clone(), text, files)
     }
 
     /// The scene as text.
     fn text<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let text = call::run(py, None, |_| {
+        let text = call::run(py, None, None, |_| {
             ugparse::write_with(&self.parsed.scene, &self.parsed.passed_on)
         })?;
         Ok(PyBytes::new(py, &text))
@@ -165,8 +206,9 @@ impl PyScene {
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (scene, time) = (&self.parsed.scene, self.time.unwrap_or(0.0));
-        let rows =
-            call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
+        let rows = call::run(py, None, None, |_| {
+            ugscene::measure(scene, ugscene::eye(scene, None), time)
+        })?;
         let measured = PyDict::new(py);
         measured.set_item("position", self.vertices(py)?)?;
         let velocities = rows.iter().flat_map(|row| row.velocity.to_array()).collect();
@@ -192,19 +234,52 @@ fn table(
 }
 
 impl PyScene {
-    fn open(words: Vec<OsString>, given: Option<Input>, call: &Arc<Call>) -> Result<Self, Refused> {
-        let Reading { common } = parse_words(words)?;
+    fn open(
+        words: Vec<String>,
+        path: Option<PathBuf>,
+        text: Option<Vec<u8>>,
+        files: Vec<NamedBytes>,
+        call: &Arc<Call>,
+    ) -> Result<Self, Refused> {
+        let Reading { common } = parse_words(words_of_system(&words, path.as_deref()))?;
         let options = pipe::options(&common)?;
-        let mut context = Context::hosted(&common, "read", String::new(), given, call.clone());
+        let given = text.map(|text| input(path.as_deref(), text));
+        let context = Context::hosted(&common, "read", String::new(), given, call.clone());
+        let mut context = context.beside(inputs(files));
         let input = pipe::input(&mut context, &options)?;
-        let source = pipe::follow(input, &options, &context)?;
+        let text = input.text.clone();
+        let mut files: Vec<Input> = Vec::new();
+        let mut keep = |name: String, text: &[u8]| {
+            if files.iter().all(|file| file.name != name) {
+                files.push(Input { name, text: text.to_vec() });
+            }
+        };
+        let source = ugparse::include(input, &options, |request| {
+            let answer = pipe::load(request, &context)?;
+            keep(request.path.display().to_string(), &answer);
+            Ok(answer)
+        })?;
+        let source = Arc::new(source);
         let parsed = ugparse::read(&source, &options, None)?;
+        // Pictures read it; if it cannot be read, they say so.
+        if let Some(StatedSky { file, .. }) = &parsed.scene.sky
+            && let Ok(text) = context.read_named(Path::new(file), MAX_INPUT)
+        {
+            keep(file.clone(), &text);
+        }
         let warning =
             ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
         let warning = warning.map(|found| found.worded().render(false));
         let mut notes = call.take_notes();
         notes.extend(notes_on(parsed.warnings.clone()));
-        Ok(Self { parsed: Arc::new(parsed), source: Arc::new(source), time: None, notes, warning })
+        let text = (text != source.text).then_some(text);
+        let origin = Arc::new(ReadFrom { words, path, text, source: source.clone(), files });
+        Ok(Self { parsed: Arc::new(parsed), source, origin, time: None, notes, warning })
+    }
+
+    /// The files that the scene named when it was read.
+    pub fn files(&self) -> Vec<Input> {
+        self.origin.files.clone()
     }
 
     /// The scene whose camera is the one of this name.
@@ -254,7 +329,14 @@ impl PyScene {
             bent: Vec::new(),
             warnings: Diagnostics::new(&source, Vec::new()),
         };
-        Ok(Self { parsed: Arc::new(parsed), source: Arc::new(source), time, notes, warning: None })
+        Ok(Self {
+            parsed: Arc::new(parsed),
+            source: Arc::new(source),
+            origin: self.origin.clone(),
+            time,
+            notes,
+            warning: None,
+        })
     }
 
     /// The error of a filter, at its place in the text if there is one.
@@ -271,11 +353,20 @@ impl PyScene {
     }
 }
 
-/// The text of a scene of arrays: positions (n, 3); the corners of all faces, and the number of
-/// corners of each; for each face a colour, display-encoded, and a velocity; for each vertex a
-/// colour. The shapes have been checked.
+/// Where rows of arrays stand in the text of a scene: a line mark names them in place of a file,
+/// with the number of the first one. `of`: the mesh that they are in, of several.
+fn mark_rows(text: &mut String, array: &str, of: &str) {
+    let _ = writeln!(text, "# 0 \"<{array}{of}>\"");
+}
+
+/// The text of a mesh of arrays: positions (n, 3); the corners of all faces, and the number of
+/// corners of each; for each face a colour, display-encoded with alpha, and a velocity; for each
+/// vertex a colour and texture coordinates. Rows of NaN are left out. `prefix`: of the names of
+/// vertices. `own`: the name of the colour of all faces. The arrays have been checked.
 #[pyfunction]
-#[pyo3(signature = (vertices, corners, sizes, colors=None, velocities=None, vertex_colors=None))]
+#[pyo3(signature = (vertices, corners, sizes, colors=None, velocities=None, vertex_colors=None,
+                    coordinates=None, prefix="", own=None))]
+#[expect(clippy::too_many_arguments, reason = "an argument for each array")]
 pub fn text_from_arrays<'py>(
     py: Python<'py>,
     vertices: PyReadonlyArray2<'py, f64>,
@@ -284,30 +375,46 @@ pub fn text_from_arrays<'py>(
     colors: Option<PyReadonlyArray2<'py, f64>>,
     velocities: Option<PyReadonlyArray2<'py, f64>>,
     vertex_colors: Option<PyReadonlyArray2<'py, f64>>,
+    coordinates: Option<PyReadonlyArray2<'py, f64>>,
+    prefix: &str,
+    own: Option<&str>,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut text = String::new();
-    let mut palette = Palette::default();
+    let of = prefix.strip_suffix('_').map_or_else(String::new, |mesh| format!(" of {mesh}"));
+    mark_rows(&mut text, "colors", &of);
+    let mut palette = Palette { prefix, numbers: HashMap::new() };
     let of_faces = palette.rows(&mut text, rows(colors.as_ref())?);
     let of_vertices = palette.rows(&mut text, rows(vertex_colors.as_ref())?);
-    let velocities = rows(velocities.as_ref())?;
+    let velocities = rows::<3>(velocities.as_ref())?;
+    let coordinates = rows::<2>(coordinates.as_ref())?;
+    mark_rows(&mut text, "vertices", &of);
     for (row, [x, y, z]) in rows(Some(&vertices))?.into_iter().enumerate() {
-        let color = of_vertices.get(row).map_or_else(String::new, |color| format!(" c{color}"));
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "v v{row} {x:?} {y:?} {z:?}{color};");
+        let _ = write!(text, "v {prefix}v{row} {x:?} {y:?} {z:?}");
+        if let Some(Some(color)) = of_vertices.get(row) {
+            let _ = write!(text, " {prefix}c{color}");
+        }
+        if let Some([u, v]) = coordinates.get(row).filter(|numbers| !is_nothing(&numbers[..])) {
+            let _ = write!(text, " ({u:?} {v:?})");
+        }
+        text.push_str(";\n");
     }
-    let (mut corners, n_vertices) = (corners.as_slice()?.iter(), vertices.shape()[0]);
+    mark_rows(&mut text, "faces", &of);
+    let mut corners = corners.as_slice()?.iter();
     for (row, &size) in sizes.as_slice()?.iter().enumerate() {
         text.push_str("f (");
         for corner in corners.by_ref().take(usize::try_from(size).unwrap_or(0)) {
-            if usize::try_from(*corner).map_or(true, |corner| corner >= n_vertices) {
-                let what = format!("faces[{row}]: there is no vertex {corner} among {n_vertices}");
-                return Err(Refused::Failure(Failure::Failed(what)).exception(py));
-            }
-            let _ = write!(text, " v{corner}");
+            let _ = write!(text, " {prefix}v{corner}");
         }
         text.push(')');
-        if let Some(color) = of_faces.get(row) {
-            let _ = write!(text, " c{color}");
+        match (of_faces.get(row), own) {
+            (Some(Some(color)), _) => {
+                let _ = write!(text, " {prefix}c{color}");
+            }
+            (_, Some(own)) => {
+                let _ = write!(text, " {own}");
+            }
+            _ => {}
         }
         if let Some([x, y, z]) = velocities.get(row).filter(|velocity| **velocity != [0.0; 3]) {
             let _ = write!(text, " <{x:?} {y:?} {z:?}>");
@@ -317,29 +424,43 @@ pub fn text_from_arrays<'py>(
     Ok(PyBytes::new(py, text.as_bytes()))
 }
 
-/// The rows of an array (n, 3).
-fn rows(array: Option<&PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<[f64; 3]>> {
+/// The rows of an array (n, N).
+fn rows<const N: usize>(array: Option<&PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<[f64; N]>> {
     let Some(array) = array else { return Ok(Vec::new()) };
-    if array.shape()[1] != 3 {
-        return Err(wrong("an array has not three columns"));
+    if array.shape()[1] != N {
+        return Err(wrong(format!("an array has not {N} columns")));
     }
     Ok(array.as_slice()?.as_chunks().0.to_vec())
 }
 
-/// Colours that have statements already.
-#[derive(Default)]
-struct Palette(std::collections::HashMap<[u64; 3], usize>);
+/// True of the row of what has none of this property.
+fn is_nothing(row: &[f64]) -> bool {
+    row.iter().all(|number| number.is_nan())
+}
 
-impl Palette {
+/// Colours that have statements already.
+struct Palette<'p> {
+    prefix: &'p str,
+    numbers: HashMap<[u64; 4], usize>,
+}
+
+impl Palette<'_> {
     /// The numbers of the colours of some rows. New ones are added to the text.
-    fn rows(&mut self, text: &mut String, rows: Vec<[f64; 3]>) -> Vec<usize> {
-        let number = |rgb: [f64; 3]| {
-            let next = self.0.len();
-            *self.0.entry(rgb.map(f64::to_bits)).or_insert_with(|| {
-                let [red, green, blue] = rgb;
-                let _ = writeln!(text, "c_rgb c{next} {red:?} {green:?} {blue:?};");
+    fn rows(&mut self, text: &mut String, rows: Vec<[f64; 4]>) -> Vec<Option<usize>> {
+        let number = |color: [f64; 4]| {
+            if is_nothing(&color) {
+                return None;
+            }
+            let next = self.numbers.len();
+            Some(*self.numbers.entry(color.map(f64::to_bits)).or_insert_with(|| {
+                let ([red, green, blue, alpha], prefix) = (color, self.prefix);
+                let _ = write!(text, "c_rgb {prefix}c{next} {red:?} {green:?} {blue:?}");
+                if alpha < 1.0 {
+                    let _ = write!(text, " {:?}", 1.0 - alpha);
+                }
+                text.push_str(";\n");
                 next
-            })
+            }))
         };
         rows.into_iter().map(number).collect()
     }

@@ -25,15 +25,17 @@ impl PySky {
     /// Reads a picture or a list of stars from files, of which the first may be in memory.
     /// `words`: those of the program that draws it, whose options say how it is read.
     #[staticmethod]
-    #[pyo3(signature = (words, paths, data=None))]
+    #[pyo3(signature = (words, paths, data=None, threads=None))]
     fn read(
         py: Python<'_>,
         words: Vec<String>,
         paths: Vec<PathBuf>,
         data: Option<Vec<u8>>,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
-        let open = move |call: &Arc<Call>| Self::open(&words, paths, data.map(input), call);
-        call::run(py, None, open)?.map_err(|refused| refused.exception(py))
+        let data = data.map(|data| input(None, data));
+        let open = move |call: &Arc<Call>| Self::open(&words, paths, data, call);
+        call::run(py, None, threads, open)?.map_err(|refused| refused.exception(py))
     }
 }
 

@@ -1,9 +1,10 @@
 //! The options of the programs, from which Python makes keyword arguments.
 
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use ugfilm::TOOLS;
 use ugimage::Format;
+use ugparse::{EXAMPLE_FILES, example_subject};
 use ugpicture::Channel;
 use ugpipe::{Entry, Manual, manual};
 
@@ -51,4 +52,17 @@ pub fn formats() -> Vec<&'static str> {
 #[pyfunction]
 pub fn channels() -> Vec<&'static str> {
     Channel::NAMES.map(|(name, _)| name).to_vec()
+}
+
+/// The names of the example files, and what they show.
+#[pyfunction]
+pub fn examples() -> Vec<(&'static str, String)> {
+    EXAMPLE_FILES.map(|(name, text)| (name, example_subject(text))).to_vec()
+}
+
+/// The bytes of an example file.
+#[pyfunction]
+pub fn example<'py>(py: Python<'py>, name: &str) -> Option<Bound<'py, PyBytes>> {
+    let (_, bytes) = EXAMPLE_FILES.iter().find(|(other, _)| *other == name)?;
+    Some(PyBytes::new(py, bytes))
 }

@@ -17,10 +17,10 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from . import physics, plot
+from . import _core, physics, plot
 from ._error import Error
 from ._picture import Picture, warp
-from ._scene import Scene, _film
+from ._scene import SCENES, Scene, _film, short
 from ._words import METHODS, documented
 from ._words import options as _options
 
@@ -30,7 +30,9 @@ if TYPE_CHECKING:
     from ._options import Film
     from ._progress import Report
 
-__all__ = ["Error", "Picture", "Scene", "film", "options", "physics", "plot", "warp"]
+__all__ = [
+    "Error", "Picture", "Scene", "example_file", "examples", "film", "options", "physics", "plot", "warp",
+]
 __version__ = "0.1.0"
 
 
@@ -46,11 +48,35 @@ def film(
 
     subject: a scene, or a file. output: film.apng, film.gif, film.mp4, or numbered frames,
     frame_%04d.png. Any number among the options may be a text with several values over the film,
-    as `time="-10..10"`, and several numbers change together, `camera_velocity="0 0 0 .. 0 .9 0"`.
+    as `time="-10..10"` or a sequence of them, `time=range(-10, 11)`. Of several numbers it is a
+    sequence of rows, `camera_velocity=[(0, 0, 0), (0, 0.9, 0)]`, which may be an array.
     """
     if isinstance(subject, Scene):
         return subject.film(output, progress=progress, **options)
-    return _film(output, os.fspath(subject), None, [], progress, options)
+    return _film(output, os.fspath(subject), progress, options)
+
+
+def examples() -> dict[str, str]:
+    """The names of the scenes that come with the package, and what each shows: see `Scene.example`.
+
+    >>> import uglorentz as ug
+    >>> print(ug.examples()["cubes"])
+    Straight edges in motion bend
+    """
+    return {short(file): about for file, about in SCENES.items()}
+
+
+def example_file(name: str) -> bytes:
+    """The bytes of a file that comes with the package: a scene, "stars.csv" or a picture of a scene.
+
+    >>> import uglorentz as ug
+    >>> ug.warp(ug.example_file("stars.csv"), camera_velocity=(0, 0.9, 0), size=(64, 48)).pixels.shape
+    (48, 64, 3)
+    """
+    data = _core.example(name)
+    if data is None:
+        raise Error(f"there is no file {name!r}: files are {', '.join(file for file, _ in _core.examples())}")
+    return data
 
 
 def options(method: str) -> None:

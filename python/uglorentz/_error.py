@@ -36,7 +36,8 @@ class Error(ValueError):
         """An error of the compiled module, which names options as a shell does."""
         text = re.sub(r"\x1b\[[0-9;]*m", "", text)
         error = cls(in_python(text))
-        if place is not None:
+        # Rows of arrays have their place in the message.
+        if place is not None and not re.match(r"<(vertices|faces|texture|colors)\b", place[0]):
             error.file, error.line, error.column = place
         message, _, rest = error.message.partition("; ")
         error.remedy = in_python(remedy) if remedy is not None else (rest or None)

@@ -6,9 +6,14 @@ from typing import Any, Literal, TypedDict, Union
 import numpy as np
 
 Vector = Union[Sequence[float], np.ndarray[Any, Any]]
+Values = Union[Vector, Sequence[Vector]]
 Text = Union[str, os.PathLike[str]]
 
 class Reading(TypedDict, total=False):
+    threads: int | None
+    """N. Use N threads [default: all]. The result does not depend on it"""
+    nt: int | None
+    """The same as threads."""
     lax: bool | None
     """True. Warn about unknown statements and pass them on"""
     allow_execute: bool | None
@@ -19,6 +24,10 @@ class Reading(TypedDict, total=False):
     """NAME=N. Change a limit on the size of scenes"""
 
 class Lorentz(TypedDict, total=False):
+    threads: int | None
+    """N. Use N threads [default: all]. The result does not depend on it"""
+    nt: int | None
+    """The same as threads."""
     velocity: Vector | None
     """X Y Z. Velocity of all objects, fraction of c [default: the scene's, else 0]"""
     vel: Vector | None
@@ -107,6 +116,10 @@ class Lorentz(TypedDict, total=False):
     """The same as size."""
 
 class Doppler(TypedDict, total=False):
+    threads: int | None
+    """N. Use N threads [default: all]. The result does not depend on it"""
+    nt: int | None
+    """The same as threads."""
     velocity: Vector | None
     """X Y Z. Velocity of faces that carry none, fractions of c"""
     vel: Vector | None
@@ -167,6 +180,10 @@ class Doppler(TypedDict, total=False):
     """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
 
 class Render(TypedDict, total=False):
+    threads: int | None
+    """N. Use N threads [default: all]. The result does not depend on it"""
+    nt: int | None
+    """The same as threads."""
     interpolate_hue: bool | None
     """True. Interpolate hue between corners (default)"""
     ih: bool | None
@@ -351,6 +368,10 @@ class Render(TypedDict, total=False):
     """The same as speed_of_light."""
 
 class Photon(TypedDict, total=False):
+    threads: int | None
+    """N. Use N threads [default: all]. The result does not depend on it"""
+    nt: int | None
+    """The same as threads."""
     velocity: Vector | None
     """X Y Z. Velocity of all objects, fraction of c [default: the scene's, else 0]"""
     vel: Vector | None
@@ -719,9 +740,9 @@ class Warp(Reading, total=False):
     """The same as speed_of_light."""
 
 class Film(Reading, total=False):
-    frames: float | str | None
+    frames: Vector | float | str | None
     """N. Number of frames [default: 100]"""
-    fps: float | str | None
+    fps: Vector | float | str | None
     """RATE. Frames a second, for films in one file [default: 25]"""
     rays: bool | None
     """True. Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs"""
@@ -739,13 +760,13 @@ class Film(Reading, total=False):
     """LIST. Draw only these frames: 40..59, or 1,5,9..12"""
     keep: Text | None
     """NAMES. Also keep the frames of a film in these files, frame_%04d.png, and use those that are there"""
-    blur: float | str | None
+    blur: Vector | float | str | None
     """TIME. Motion blur: average the light of the film over TIME, in times between two frames"""
-    moments: float | str | None
+    moments: Vector | float | str | None
     """N. Moments that are averaged with blur= [default: 16]"""
     across: Text | None
     """NAME N. On a page (output FILE.html), a second slider with N values of option NAME"""
-    sheet: float | str | bool | None
+    sheet: Vector | float | str | bool | None
     """N. Draw N frames spread over the film, or those of only=, on one sheet"""
     format: Text | None
     """FMT. Format of the film [default: by the ending of output]"""
@@ -753,21 +774,21 @@ class Film(Reading, total=False):
     """The same as format."""
     look: Text | None
     """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
-    velocity: Vector | float | str | None
+    velocity: Values | float | str | None
     """X Y Z. Velocity of all objects, fraction of c [default: the scene's, else 0]"""
-    vel: Vector | float | str | None
+    vel: Values | float | str | None
     """The same as velocity."""
-    camera_velocity: Vector | float | str | None
+    camera_velocity: Values | float | str | None
     """X Y Z. Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]"""
-    cv: Vector | float | str | None
+    cv: Values | float | str | None
     """The same as camera_velocity."""
-    time: float | str | None
+    time: Vector | float | str | None
     """T. Time of the picture on the observer's clock"""
-    ti: float | str | None
+    ti: Vector | float | str | None
     """The same as time."""
-    anchor: float | str | None
+    anchor: Vector | float | str | None
     """POINT. Fixed point of the contraction: eye, origin, center or X Y Z"""
-    an: float | str | None
+    an: Vector | float | str | None
     """The same as anchor."""
     keep_in_view: bool | None
     """True. Keep bodies in view: they appear where the scene has them"""
@@ -777,21 +798,21 @@ class Film(Reading, total=False):
     """The same as keep_in_view."""
     ahead: bool | None
     """True. View ahead of a moving camera: the picture shows at every speed what it shows at rest"""
-    error: float | str | None
+    error: Vector | float | str | None
     """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
-    se: float | str | None
+    se: Vector | float | str | None
     """The same as error."""
-    color_error: float | str | None
+    color_error: Vector | float | str | None
     """PERCENT. Subdivide also until the interpolated Doppler factor deviates by at most PERCENT, or off [default: 0.15]"""
-    sc: float | str | None
+    sc: Vector | float | str | None
     """The same as color_error."""
-    light_error: float | str | None
+    light_error: Vector | float | str | None
     """PERCENT. Subdivide also until the interpolated light of near lamps deviates by at most PERCENT [default: off]"""
-    sl: float | str | None
+    sl: Vector | float | str | None
     """The same as light_error."""
-    pieces: float | str | None
+    pieces: Vector | float | str | None
     """N. Cut every edge into N equal pieces, instead of error=, color_error= and light_error="""
-    sd: float | str | None
+    sd: Vector | float | str | None
     """The same as pieces."""
     smooth: bool | None
     """True. Write vertex normals for smooth shading"""
@@ -813,21 +834,21 @@ class Film(Reading, total=False):
     """NAME. The camera of this name [default: the first without a name, else the first]"""
     cam: Text | None
     """The same as camera."""
-    eye: Vector | float | str | None
+    eye: Values | float | str | None
     """X Y Z. Eye point [default: that of the scene's camera]"""
-    ep: Vector | float | str | None
+    ep: Values | float | str | None
     """The same as eye."""
-    center: Vector | float | str | None
+    center: Values | float | str | None
     """X Y Z. View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]"""
-    vc: Vector | float | str | None
+    vc: Values | float | str | None
     """The same as center."""
-    up: Vector | float | str | None
+    up: Values | float | str | None
     """X Y Z. Up direction [default: that of the scene's camera, else 0 0 1]"""
-    ud: Vector | float | str | None
+    ud: Values | float | str | None
     """The same as up."""
-    view_angle: Vector | float | str | None
+    view_angle: Values | float | str | None
     """A B. Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's camera, else 40]"""
-    va: Vector | float | str | None
+    va: Values | float | str | None
     """The same as view_angle."""
     orthographic: bool | None
     """True. Orthographic projection"""
@@ -847,13 +868,13 @@ class Film(Reading, total=False):
     """The same as spectral."""
     no_doppler: bool | None
     """True. Leave wavelengths as they are"""
-    infrared_rule: float | str | None
+    infrared_rule: Vector | float | str | None
     """RULE. Infrared of surfaces of which only the colour is known: measured, constant [default: measured]"""
     no_flux: bool | None
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
-    color_tolerance: float | str | None
+    color_tolerance: Vector | float | str | None
     """T. Reuse a colour that differs by at most T nm and T percent of value, or with spectral=True by T percent of X, Y and Z; 0: a colour for each vertex"""
-    ct: float | str | None
+    ct: Vector | float | str | None
     """The same as color_tolerance."""
     iris: bool | None
     """True. Iris: scale all values so that the brightest is 1"""
@@ -871,7 +892,7 @@ class Film(Reading, total=False):
     """True. Give faces with textures their mean colour"""
     sky: Text | None
     """SKY. Sky behind the scene: day, dusk, stars, or a file"""
-    sky_turn: Vector | float | str | None
+    sky_turn: Values | float | str | None
     """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
     interpolate_hue: bool | None
     """True. Interpolate hue between corners (default)"""
@@ -891,29 +912,29 @@ class Film(Reading, total=False):
     """True. Text of captions, legends and grids as text in vector graphics, instead of outlines"""
     txt: bool | None
     """The same as text."""
-    size: Vector | float | str | None
+    size: Values | float | str | None
     """W H. Size of every frame in pixels, or in mm, cm, in, pt [default: 1024 768]"""
-    sz: Vector | float | str | None
+    sz: Values | float | str | None
     """The same as size."""
-    samples: float | str | None
+    samples: Vector | float | str | None
     """N. N x N samples per pixel, 1 to 16"""
-    aa: float | str | None
+    aa: Vector | float | str | None
     """The same as samples."""
     filter: Text | None
     """FILTER. Reconstruction filter from samples to pixels: box, triangle, spline"""
     fl: Text | None
     """The same as filter."""
-    background: Vector | float | str | None
+    background: Values | float | str | None
     """L H S. Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]"""
-    bg: Vector | float | str | None
+    bg: Values | float | str | None
     """The same as background."""
     transparent: bool | None
     """True. Transparent background"""
     tb: bool | None
     """The same as transparent."""
-    exposure: float | str | None
+    exposure: Vector | float | str | None
     """E|WORD. Exposure in stops, or auto, hold, follow"""
-    ex: float | str | None
+    ex: Vector | float | str | None
     """The same as exposure."""
     tone_curve: Text | None
     """CURVE. Tone curve from light to display: clip, filmic"""
@@ -943,23 +964,23 @@ class Film(Reading, total=False):
     """True. Silhouette: of edges only those where a body turns away from the eye, and those of a single face"""
     sil: bool | None
     """The same as silhouette."""
-    crease: float | str | None
+    crease: Vector | float | str | None
     """ANGLE. Of edges only the silhouette and creases of at least ANGLE degrees, 0 to 180"""
-    hidden_lines: float | str | None
+    hidden_lines: Vector | float | str | None
     """STYLE. Lines that are hidden by faces: dash, thin [default: not drawn]"""
-    hl: float | str | None
+    hl: Vector | float | str | None
     """The same as hidden_lines."""
-    line_color: Vector | float | str | None
+    line_color: Values | float | str | None
     """L H S. Colour of the edges, as for background= [default: colours of the faces with wireframe=True, black with edges=True]"""
-    lc: Vector | float | str | None
+    lc: Values | float | str | None
     """The same as line_color."""
-    line_width: float | str | None
+    line_width: Vector | float | str | None
     """W. Width of edges and wires in pixels"""
-    lw: float | str | None
+    lw: Vector | float | str | None
     """The same as line_width."""
-    depth_cue: Vector | float | str | bool | None
+    depth_cue: Values | float | str | bool | None
     """NEAR FAR LEAST. Depth cueing: between the depths NEAR and FAR, light fades linearly into the background, to the fraction LEAST"""
-    dc: Vector | float | str | bool | None
+    dc: Values | float | str | bool | None
     """The same as depth_cue."""
     exact: bool | None
     """True. Exact: a ray for every sample, instead of subdivision"""
@@ -975,9 +996,9 @@ class Film(Reading, total=False):
     """True. Legend below the picture: spectrum, velocities, Doppler factors"""
     lg: bool | None
     """The same as legend."""
-    legend_place: float | str | None
+    legend_place: Vector | float | str | None
     """PLACE. Place of caption, legend and scale: below, beside, or over a corner, as top-left"""
-    lp: float | str | None
+    lp: Vector | float | str | None
     """The same as legend_place."""
     undistorted: bool | None
     """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
@@ -991,23 +1012,23 @@ class Film(Reading, total=False):
     """QUANTITY LOW HIGH. Instead of light a quantity in false colours, with its scale: D, time, distance, speed, z"""
     iso: str | Sequence[str | float] | None
     """QUANTITY VALUE. Lines of equal values of a quantity over the picture: D, time, distance, speed, z"""
-    text_size: float | str | None
+    text_size: Vector | float | str | None
     """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
-    ts: float | str | None
+    ts: Vector | float | str | None
     """The same as text_size."""
-    unit: float | str | None
+    unit: Vector | float | str | None
     """UNIT. What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'"""
-    speed_of_light: float | str | None
+    speed_of_light: Vector | float | str | None
     """SPEED. The speed of light in legends and captions, as 30km/h [default: as in vacuum]"""
-    c: float | str | None
+    c: Vector | float | str | None
     """The same as speed_of_light."""
-    depth: float | str | None
+    depth: Vector | float | str | None
     """N. Most reflections and refractions along a path"""
-    rd: float | str | None
+    rd: Vector | float | str | None
     """The same as depth."""
-    cut_off: float | str | None
+    cut_off: Vector | float | str | None
     """PART. Least part of a pixel's light that is followed"""
-    rc: float | str | None
+    rc: Vector | float | str | None
     """The same as cut_off."""
     no_shadows: bool | None
     """True. Without shadows: light reaches surfaces through all others"""
@@ -1015,25 +1036,25 @@ class Film(Reading, total=False):
     """True. The sky does not light the scene"""
     fresnel: bool | None
     """True. Fresnel's equations for mirrors and glass"""
-    film_shutter: float | str | None
+    film_shutter: Vector | float | str | None
     """DISTANCE. Shutter at the film, at this distance behind the pinhole"""
     panorama: bool | None
     """True. Panorama of all directions"""
     pan: bool | None
     """The same as panorama."""
-    fisheye: float | str | None
+    fisheye: Vector | float | str | None
     """ANGLE. Fisheye: ANGLE degrees in a circle, as for domes"""
-    fish: float | str | None
+    fish: Vector | float | str | None
     """The same as fisheye."""
     cube_map: bool | None
     """True. Cube map: six square views from left to right"""
     cube: bool | None
     """The same as cube_map."""
-    stereo: float | str | None
+    stereo: Vector | float | str | None
     """DISTANCE. A picture for each of two eyes at this distance"""
-    adaptive: float | str | None
+    adaptive: Vector | float | str | None
     """CONTRAST. Adaptive samples: fewer in pixels of less contrast than this"""
-    ad: float | str | None
+    ad: Vector | float | str | None
     """The same as adaptive."""
     radiances: bool | None
     """True. Add channels of radiances at wavelengths to an EXR picture"""
@@ -1043,23 +1064,23 @@ class Film(Reading, total=False):
     """FILE. Scene whose camera takes the picture"""
     from_: Text | None
     """KIND. Arrangement of directions: panorama, strip, cross, sides [default: panorama]"""
-    part: Vector | float | str | None
+    part: Values | float | str | None
     """WEST EAST SOUTH NORTH. Angles that the panorama shows, in degrees [default: -180 180 -90 90]"""
-    basis: Vector | float | str | None
+    basis: Values | float | str | None
     """BASIS T2 T3. Spectra of colours: mixture, or three temperatures [default: mixture]"""
-    highlights: float | str | None
+    highlights: Vector | float | str | None
     """STOPS. How much brighter than white clipped highlights of a photograph are, in stops"""
     infrared: Text | None
     """FILE. Panorama of infrared light"""
-    infrared_to: float | str | None
+    infrared_to: Vector | float | str | None
     """NM. Longest wavelength of the infrared panorama, nm [default: 1400]"""
     ultraviolet: Text | None
     """FILE. Panorama of ultraviolet light"""
-    ultraviolet_from: float | str | None
+    ultraviolet_from: Vector | float | str | None
     """NM. Shortest wavelength of the ultraviolet panorama, nm [default: 200]"""
-    stars: float | str | None
+    stars: Vector | float | str | None
     """LIST. Draw the stars of a list in front of the panorama"""
-    star_width: float | str | None
+    star_width: Vector | float | str | None
     """PIXELS. Width of stars at half of their maximum, in pixels [default: 1.7]"""
-    white: float | str | None
+    white: Vector | float | str | None
     """MAG. Magnitude of stars of which one per square degree is white [default: -2]"""

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
 from . import _core
+from ._arrays import Mesh, colors_of, coordinates_of, corners_of, table_of, texture_of, velocities_of
 from ._error import Error
 from ._picture import Picture
 from ._progress import shown
-from ._words import camera_of, documented, in_python, words
+from ._trimesh import meshes_of
+from ._words import camera_of, documented, in_python, without_threads, words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -20,7 +22,20 @@ if TYPE_CHECKING:
     from ._options import Doppler, Film, Lorentz, Photon, Reading, Render
     from ._progress import Report
 
-__all__ = ["Scene"]
+__all__ = ["SCENES", "Scene", "short"]
+
+#: Files in memory, by name.
+Files = dict[str, bytes]
+#: Options, path, text and files of a scene that was read.
+_Origin = tuple[list[str], Union[os.PathLike[str], str, None], bytes, list[tuple[str, bytes]]]
+
+#: The examples that are scenes or meshes.
+SCENES = {file: about for file, about in _core.examples() if file.endswith((".ug", ".obj", ".gltf"))}
+
+
+def short(file: str) -> str:
+    """The name of an example."""
+    return file[:-3] if file.endswith(".ug") else file
 
 
 class Scene:
@@ -33,9 +48,14 @@ class Scene:
     array([4.4345, 1.    , 0.    ])
     """
 
-    __slots__ = ("_from", "_scene", "notes")
-    _from: tuple[str | None, bytes | None, list[str]] | None
-    _scene: _core.Scene
+    __slots__ = ("_files", "_made", "_origin", "_steps", "notes")
+    #: Files in memory that it was read with.
+    _files: Files
+    #: The scene of the compiled module, which one that was unpickled makes when it is needed.
+    _made: _core.Scene | None
+    _origin: _Origin | None
+    #: The command lines of the programs that made it from the one that was read, and the names of their cameras.
+    _steps: tuple[tuple[list[str], str | None], ...]
 
     #: Warnings and notes, a text each.
     notes: list[str]
@@ -44,11 +64,30 @@ class Scene:
         raise TypeError("use Scene.read(path), Scene.parse(text) or Scene.from_arrays(vertices, faces)")
 
     @classmethod
-    def _of(cls, core: _core.Scene, origin: Any = None) -> Scene:
+    def _of(cls, core: _core.Scene, files: Files, steps: Any = (), notes: Sequence[str] = ()) -> Scene:
         scene = object.__new__(cls)
-        scene._scene, scene._from = core, origin
-        scene.notes = [in_python(note) for note in core.notes]
+        scene._made, scene._origin, scene._files, scene._steps = core, None, files, steps
+        scene.notes = [*notes, *(in_python(note) for note in core.notes)]
         return scene
+
+    @classmethod
+    def _read(
+        cls, options: Mapping[str, Any], path: str | None, text: bytes | None, files: Files, notes: Sequence[str] = ()
+    ) -> Scene:
+        options, threads = without_threads(options)
+        reading = words("uglorentz", options, is_common=True)[1:]
+        core = _core.Scene.read(["read", *reading], path, text, list(files.items()), threads)
+        return cls._of(core, files, (), notes)
+
+    @property
+    def _scene(self) -> _core.Scene:
+        if self._made is None:
+            assert self._origin is not None
+            made = _core.Scene.read(*self._origin)
+            for line, camera in self._steps:
+                made = made.filtered(line, camera)
+            self._made = made
+        return self._made
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], **options: Unpack[Reading]) -> Scene:
@@ -59,15 +98,17 @@ class Scene:
 
         Raises `Error` with the line if the scene is wrong, `OSError` if it cannot be read.
         """
-        reading = words("uglorentz", options, is_common=True)
         path = os.fspath(path)
-        if path == "-":
-            path = "./-"
-        return cls._of(_core.Scene.read(reading, path=path), (path, None, reading[1:]))
+        return cls._read(options, "./-" if path == "-" else path, None, {})
 
     @classmethod
-    def parse(cls, text: str | bytes, **options: Unpack[Reading]) -> Scene:
+    def parse(
+        cls, text: str | bytes, *, files: Mapping[str, bytes] | None = None, **options: Unpack[Reading]
+    ) -> Scene:
         """A scene from its text, in UniGrafix or a mesh format. Options as in `read`.
+
+        files: those that the text names, such as pictures, in memory: bytes by name. Others are
+        read from the current folder.
 
         >>> import uglorentz as ug
         >>> try:
@@ -76,9 +117,23 @@ class Scene:
         ...     print(error.message, error.line, error.column)
         vertex `b` is not defined 1 17
         """
-        reading = words("uglorentz", options, is_common=True)
-        data = text.encode() if isinstance(text, str) else bytes(text)
-        return cls._of(_core.Scene.read(reading, text=data), (None, data, reading[1:]))
+        data = text.encode(errors="surrogateescape") if isinstance(text, str) else bytes(text)
+        return cls._read(options, None, data, {name: bytes(file) for name, file in (files or {}).items()})
+
+    @classmethod
+    def example(cls, name: str, **options: Unpack[Reading]) -> Scene:
+        """A scene that comes with the package, with its pictures: `uglorentz.examples()` lists them.
+
+        >>> import uglorentz as ug
+        >>> ug.Scene.example("ship")
+        <Scene: 1064 vertices, 792 faces, at rest>
+        """
+        files = [file for file, _ in _core.examples() if file in (name, f"{name}.ug") and file in SCENES]
+        text = _core.example(files[0]) if files else None
+        if text is None:
+            raise Error(f"there is no example {name!r}: examples are {', '.join(map(short, SCENES))}")
+        beside = {file: _core.example(file) or b"" for file, _ in _core.examples() if file not in SCENES}
+        return cls._read(options, files[0], text, beside)
 
     @classmethod
     def from_arrays(
@@ -89,17 +144,27 @@ class Scene:
         colors: Any = None,
         velocities: Any = None,
         vertex_colors: Any = None,
+        texture: Any = None,
+        texture_coordinates: Any = None,
         extra: str = "",
+        **options: Unpack[Reading],
     ) -> Scene:
         """A scene from arrays.
 
         vertices: rest positions, (n, 3), any unit; times have the same unit, c = 1.
         faces: rows of vertices, counted from 0, counterclockwise seen from outside: (m, 3) or
         (m, k), or a list of faces with different numbers of corners.
-        colors: encoded red, green and blue, 0 to 1, of each face (m, 3) or of all (3,).
+        colors: red, green and blue, and alpha if there is a fourth column, encoded for displays, of
+        each face (m, 3 or 4) or of all (3 or 4,): numbers from 0 to 1, or uint8 from 0 to 255.
         velocities: fractions of c, of each face (m, 3) or of all (3,).
-        vertex_colors: (n, 3), in the place of colors of faces.
+        vertex_colors: likewise (n, 3 or 4), in the place of colors of faces.
+        texture: a picture for all faces: pixels (height, width, 3 or 4) as colors, a picture of
+        Pillow, the bytes of a file, or its path. vertex_colors are its factors.
+        texture_coordinates: of each vertex, (n, 2), from (0, 0) at the lower left of the picture to
+        (1, 1) at the upper right, as in OBJ and trimesh.
         extra: statements of the scene language: lights, cameras, motions.
+
+        Vertices are called v0, v1, … in them. Other options as in `read`.
 
         >>> import uglorentz as ug
         >>> tile = ug.Scene.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]],
@@ -107,21 +172,58 @@ class Scene:
         >>> print(tile)
         <Scene: 3 vertices, 1 face, at rest>
         """
-        points = _table("vertices", vertices, None)
-        corners, sizes = _corners(faces)
-        colors = _table("colors", colors, len(sizes))
-        velocities = _table("velocities", velocities, len(sizes))
-        own = _table("vertex_colors", vertex_colors, None if points is None else len(points))
-        text = _core.text_from_arrays(points, corners, sizes, colors, velocities, own)
-        return cls.parse(text + extra.encode())
+        points = table_of("vertices", vertices, None)
+        corners, sizes = corners_of(faces, len(points))
+        mesh = Mesh(
+            points,
+            corners,
+            sizes,
+            colors_of("colors", colors, len(sizes)),
+            velocities_of("velocities", velocities, len(sizes)),
+            colors_of("vertex_colors", vertex_colors, len(points)),
+        )
+        if (texture is None) != (texture_coordinates is None):
+            raise Error("texture= and texture_coordinates= are given together")
+        if texture is not None:
+            if colors is not None:
+                raise Error("texture= is the colour of all faces: leave out colors=, or give vertex_colors=")
+            coordinates = coordinates_of(texture_coordinates, len(points))
+            mesh = mesh._replace(texture=texture_of("texture", texture), coordinates=coordinates)
+        return cls._of_meshes([("", mesh)], extra, options)
+
+    @classmethod
+    def from_trimesh(
+        cls, mesh: Any, *, velocities: Any = None, up: str = "z", extra: str = "", **options: Unpack[Reading]
+    ) -> Scene:
+        """A scene from a mesh or a scene of trimesh, with its colours and base textures.
+
+        mesh: what has vertices, faces and `visual` as trimesh.Trimesh, or meshes in a graph of
+        transforms as trimesh.Scene. velocities: as in `from_arrays`, of the faces of all meshes.
+        up: the axis that points up in it, which is "y" if trimesh read it from glTF. extra and
+        other options as in `from_arrays`; a vertex of the mesh NAME of several is called NAME_v0.
+        """
+        meshes, notes = meshes_of(mesh, velocities, up)
+        return cls._of_meshes(meshes, extra, options, notes)
+
+    @classmethod
+    def _of_meshes(
+        cls, meshes: Sequence[tuple[str, Mesh]], extra: str, options: Mapping[str, Any], notes: Sequence[str] = ()
+    ) -> Scene:
+        text = b"".join(mesh.text(prefix) for prefix, mesh in meshes)
+        # Its errors have lines of their own.
+        text += b'# 1 "<extra>"\n' + extra.encode() if extra else b""
+        files = {mesh.texture.name: mesh.texture.file for _, mesh in meshes if mesh.texture is not None}
+        return cls._read(options, None, text, files, notes)
 
     def _filtered(self, program: str, progress: bool | Report, options: Mapping[str, Any]) -> Scene:
-        line = words(program, options)
+        options, threads = without_threads(options)
+        line, camera = words(program, options), camera_of(options)
         with shown(progress) as report:
-            return Scene._of(self._scene.filtered(line, camera_of(options), report))
+            core = self._scene.filtered(line, camera, report, threads)
+        return Scene._of(core, self._files, (*self._steps, (line, camera)))
 
     def _drawn(self, program: str, progress: bool | Report, options: Mapping[str, Any]) -> Picture:
-        picture = Picture._drawn(self._scene, program, options, progress)
+        picture = Picture._drawn(self, program, options, progress)
         if program == "ugrainbow" and self._scene.warning is not None:
             picture.notes.insert(0, in_python(self._scene.warning))
         return picture
@@ -150,11 +252,10 @@ class Scene:
     def film(
         self, output: str | os.PathLike[str], *, progress: bool | Report = False, **options: Unpack[Film]
     ) -> list[str]:
-        """Draws a film of the scene at rest, whose file is read again: see `uglorentz.film`."""
-        if self._from is None:
+        """Draws a film of the scene at rest, as it was read: see `uglorentz.film`."""
+        if self._steps:
             raise Error("a film begins with a scene at rest: use the one that was read")
-        path, text, reading = self._from
-        return _film(output, path, text, reading, progress, options)
+        return _film(output, self._origin or self._scene.origin(), progress, options)
 
     def vertices_as_seen(self) -> dict[str, Any]:
         """What is seen at every vertex of a scene that `lorentz` returned, as arrays.
@@ -196,9 +297,25 @@ class Scene:
         return bytes(self._scene.text()).decode(errors="surrogateescape")
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the scene in UniGrafix."""
-        with open(path, "wb") as file:
-            file.write(self._scene.text())
+        """Writes the scene in UniGrafix, and beside it pictures that it was made with in memory."""
+        path, text = os.fspath(path), self._scene.text()
+        missing = {}
+        for name, data in self._files.items():
+            file = os.path.join(os.path.dirname(path), name)
+            if f'"{name}"'.encode() not in text or os.path.isabs(name) or ".." in name.split("/"):
+                continue
+            if not os.path.exists(file):
+                missing[file] = data
+                continue
+            with open(file, "rb") as there:
+                if there.read() != data:
+                    raise Error(f"{file!r} is there already, with another content: rename it, or use another folder")
+        with open(path, "wb") as opened:
+            opened.write(text)
+        for file, data in missing.items():
+            os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
+            with open(file, "wb") as opened:
+                opened.write(data)
 
     def __repr__(self) -> str:
         n_vertices, n_faces, _ = self._scene.counts()
@@ -207,62 +324,43 @@ class Scene:
         stage += ", colours as seen" if is_coloured else ""
         return f"<Scene: {_count(n_vertices, 'vertices', 'vertex')}, {_count(n_faces, 'faces', 'face')}, {stage}>"
 
+    def __copy__(self) -> Scene:
+        copied = object.__new__(Scene)
+        copied._made, copied._origin = self._made, self._origin
+        copied._files, copied._steps, copied.notes = self._files, self._steps, list(self.notes)
+        return copied
+
+    def __deepcopy__(self, _: Any) -> Scene:
+        # Nothing else can be changed.
+        return self.__copy__()
+
     def __reduce__(self) -> Any:
-        raise TypeError("a scene is not pickled: pass its text()")
+        return _restored, (self._origin or self._scene.origin(), self._files, self._steps, self.notes)
+
+
+def _restored(origin: _Origin, files: Files, steps: Any, notes: list[str]) -> Scene:
+    """A scene that was pickled, which is read again from what it was read from then."""
+    scene = object.__new__(Scene)
+    scene._made, scene._origin = None, origin
+    scene._files, scene._steps, scene.notes = files, steps, notes
+    return scene
 
 
 def _count(number: int, many: str, one: str) -> str:
     return f"{number} {one if number == 1 else many}"
 
 
-def _table(name: str, value: Any, n_rows: int | None) -> Any:
-    """Numbers as an array (n, 3); one row stands for all."""
-    if value is None:
-        return None
-    table = np.asarray(value)
-    if table.dtype == object or not np.can_cast(table.dtype, np.float64, "same_kind"):
-        raise TypeError(f"{name}: numbers are expected, not {table.dtype}")
-    table = table.astype(np.float64)
-    if n_rows is not None and table.shape == (3,):
-        table = np.broadcast_to(table, (n_rows, 3))
-    if table.ndim != 2 or table.shape[1] != 3 or (n_rows is not None and len(table) != n_rows):
-        expected = f"({'n' if n_rows is None else n_rows}, 3)"
-        raise Error(f"{name}: the shape is {table.shape} instead of {expected}")
-    bad = np.flatnonzero(~np.isfinite(table).all(axis=1))
-    if len(bad):
-        raise Error(f"{name}[{bad[0]}] is not finite: {table[bad[0]]}")
-    return np.ascontiguousarray(table)
-
-
-def _corners(faces: Any) -> tuple[Any, Any]:
-    """The corners of all faces, one after the other, and the number of corners of each."""
-    if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        rows: Sequence[Any] = [faces]
-        sizes = np.full(len(faces), faces.shape[1], np.int64)
-    else:
-        rows = [np.asarray(face) for face in faces]
-        sizes = np.array([row.size for row in rows], np.int64)
-    for row, part in enumerate(rows):
-        if part.size and (part.dtype == bool or not np.issubdtype(part.dtype, np.integer)):
-            raise TypeError(f"faces: rows of vertices are whole numbers, not {part.dtype}")
-        if not (isinstance(faces, np.ndarray) and faces.ndim == 2) and part.ndim != 1:
-            raise Error(f"faces[{row}]: the shape is {part.shape} instead of (k,)")
-    if (sizes < 3).any():
-        raise Error(f"faces[{int(np.flatnonzero(sizes < 3)[0])}] has fewer than 3 corners")
-    parts = [part.ravel().astype(np.int64) for part in rows]
-    return (np.concatenate(parts) if parts else np.empty(0, np.int64)), sizes
-
-
 def _film(
     output: str | os.PathLike[str],
-    path: str | None,
-    text: bytes | None,
-    reading: list[str],
+    origin: _Origin | str,
     progress: bool | Report,
     options: Mapping[str, Any],
 ) -> list[str]:
+    """A film of a scene that was read, or of a file."""
+    options, threads = without_threads(options)
     program, *line = words("ugfilm", options)
     file = os.fspath(output)
-    line = [program, f"--fo={'./-' if file == '-' else file}", *reading, *line]
+    reading, path, text, files = ([], origin, None, []) if isinstance(origin, str) else origin
+    line = [program, f"--fo={'./-' if file == '-' else file}", *reading[1:], *line]
     with shown(progress) as report:
-        return [in_python(note) for note in _core.film(line, path, text, report)]
+        return [in_python(note) for note in _core.film(line, path, text, files, report, threads)]

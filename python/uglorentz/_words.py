@@ -23,7 +23,7 @@ METHODS = {
     "ugfilm": "film",
 }
 
-#: Options that write files or reports, choose threads, or have no effect.
+#: Options that write files or reports, or have no effect; that of threads is a keyword of all functions.
 LEFT_OUT = {"fi", "fo", "fm", "qt", "vb", "nt", "at", "explain", "pv", "cn", "print", "help", "version"}
 
 
@@ -117,6 +117,35 @@ def flat(value: Any) -> Iterable[str]:
     return [number(value)]
 
 
+def over_time(option: Option, value: Any) -> Any:
+    """The value of an option of a film: sequences become texts with several values over its time.
+
+    A number has a sequence, `time=range(10)`; several numbers have a sequence of rows,
+    `velocity=[(0, 0, 0), (0.9, 0, 0)]`, or sequences among them, `velocity=([0, 0.9], 0, 0)`.
+    """
+    if isinstance(value, (str, os.PathLike)) or not isinstance(value, Iterable) or not getattr(value, "shape", (1,)):
+        return value
+    parts = list(value)
+    is_list = [isinstance(part, Iterable) and not isinstance(part, str) for part in parts]
+    if len(option.values) == 1 and not option.is_repeated:
+        # The frames of `only`, and names, are lists at one time.
+        if option.keyword in ("only", "channels", "limit") or any(isinstance(part, str) for part in parts):
+            return value
+        return "..".join(flat(parts))
+    if not any(is_list):
+        return value
+    if not all(is_list):
+        return ["..".join(flat(part)) for part in parts]
+    rows = [list(flat(part)) for part in parts]
+    for idx, row in enumerate(rows):
+        if len(row) < option.n_needed or len(row) > len(option.values) and not option.is_repeated:
+            shown = f"({', '.join(row)})"
+            raise TypeError(f"{option.keyword}[{idx}] is {shown}: {' '.join(option.values)} are expected")
+    if len(rows) == 1:
+        return rows[0]
+    return " .. ".join(" ".join(row) for row in rows)
+
+
 def words_of(option: Option, value: Any) -> list[str]:
     """The words of an option."""
     dashed = f"--{option.word}"
@@ -158,11 +187,33 @@ def words(program: str, given: Mapping[str, Any], *, is_common: bool = False) ->
         if seen.setdefault(option.word, name) != name:
             raise TypeError(f"{seen[option.word]}= and {name}= are the same option")
         try:
-            line += words_of(option, value)
+            line += words_of(option, over_time(option, value) if program == "ugfilm" else value)
         except TypeError as error:
             text = str(error)
             raise TypeError(text if name in text or "=" in text else f"{name}=: {text}") from None
     return line
+
+
+def without_threads(given: Mapping[str, Any]) -> tuple[dict[str, Any], int | None]:
+    """Keywords without `threads`, and its number."""
+    rest = dict(given)
+    threads = [rest.pop(name) for name in ("threads", "nt") if name in rest]
+    if len(threads) > 1:
+        raise TypeError("threads= and nt= are the same option")
+    if not threads or threads[0] is None:
+        return rest, None
+    (wanted,) = threads
+    if isinstance(wanted, bool) or not hasattr(wanted, "__index__"):
+        raise TypeError(f"threads= is a whole number, not {wanted!r}")
+    if not 1 <= wanted.__index__() <= 1024:
+        from ._error import Error
+
+        raise Error(f"threads= is from 1 to 1024, or None for all of the machine, not {wanted}")
+    return rest, int(wanted.__index__())
+
+
+#: What the keyword of all functions does.
+THREADS = "N. Use N threads [default: all]. The result does not depend on it"
 
 
 def camera_of(given: Mapping[str, Any]) -> str | None:
@@ -182,8 +233,38 @@ def spellings() -> dict[str, Option]:
     return found
 
 
+#: Lines of a message with the place and the text of a row of an array: see `mark_rows` in scene.rs.
+ROW = re.compile(r"\n *(-->|:::) <(?P<array>vertices|faces|texture|colors)(?P<of> of [^>]*)?>:(?P<row>\d+):\d+(\n *\d* *\|.*)*")
+
+
+def of_rows(text: str) -> str:
+    """A message that names rows of arrays, in place of a text that the package wrote."""
+
+    def reworded(part: str) -> str:
+        first = []
+
+        def place(found: re.Match[str]) -> str:
+            # Statements of colours are not in the order of rows.
+            number = f"[{found['row']}]" if found["array"] in ("vertices", "faces") else ""
+            row = f"{found['array']}{number}{found['of'] or ''}"
+            if found[1] == "-->":
+                first.append(row)
+                return ""
+            return f"\n  ::: {row}"
+
+        part = ROW.sub(place, part)
+        if not first:
+            return part
+        part = re.sub(r"^((?:error|warning): )?", rf"\g<1>{first[0]}: ", part, count=1)
+        return re.sub(r"\n *\|(?=\n|$)", "", part)
+
+    return "".join(map(reworded, re.split(r"(?m)^(?=(?:error|warning): )", text)))
+
+
 def in_python(text: str) -> str:
     """A message of a program with keywords in the place of options, and methods of programs."""
+    if "--> <" in text:
+        text = of_rows(text)
 
     def keyword_of(match: re.Match[str]) -> str:
         option = spellings().get(match["name"])
@@ -232,9 +313,11 @@ def documented(program: str) -> Callable[[_Function], _Function]:
         shown = [option for option in options(program) if not option.is_common]
         signature = inspect.signature(function)
         fixed = [part for part in signature.parameters.values() if part.kind is not part.VAR_KEYWORD]
-        added = [inspect.Parameter(option.keyword, inspect.Parameter.KEYWORD_ONLY, default=None) for option in shown]
+        names = ["threads", *(option.keyword for option in shown)]
+        added = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in names]
         function.__signature__ = signature.replace(parameters=[*fixed, *added])  # type: ignore[attr-defined]
-        lines = [f"    {option.keyword}: {summary(option)}" for option in shown]
+        lines = [f"    threads: {THREADS}"]
+        lines += [f"    {option.keyword}: {summary(option)}" for option in shown]
         function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions:\n" + "\n".join(lines)
         return function
 

@@ -30,8 +30,7 @@ def channel(picture: Picture, name: str, ax: Any = None, **options: Any) -> Any:
 
     if name not in _LABELS:
         raise ValueError(f"a channel of one number per pixel is expected, {', '.join(_LABELS)}, not {name!r}")
-    found = picture.channels("id", name)
-    values = np.ma.masked_where(found["id"] == 0, found[name])
+    values = picture.channel(name, nothing="mask")
     if ax is None:
         ax = plt.figure().gca()
     ticks: Locator | None = None

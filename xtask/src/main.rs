@@ -117,12 +117,9 @@ enum Task {
     },
     /// Build the wheel of the Python package and test it in a clean environment
     ///
-    /// Requires Python 3.9 or later with its module venv; the rest is installed in target/python.
-    Python {
-        /// Also build the wheel for Linux since 2014 (manylinux2014), with the linker of Zig
-        #[arg(long)]
-        manylinux: bool,
-    },
+    /// Requires Python 3.9 or later with its module venv; the rest is installed in target/python,
+    /// with the linker of Zig, which makes the wheel run on Linux since 2014 (manylinux2014).
+    Python,
     /// Build the page of web/, one HTML file with the programs as WebAssembly
     Page(page::Args),
     /// Install the programs, their man pages and documentation, and completions for bash, zsh and
@@ -185,7 +182,7 @@ fn run(task: &Task) -> Outcome<()> {
         Task::Notices(args) => notices::write(&mut out, args)?,
         Task::Site => site::write(&mut out)?,
         Task::Package { check } => scripts::package(*check)?,
-        Task::Python { manylinux } => scripts::python(*manylinux)?,
+        Task::Python => scripts::python()?,
         Task::Page(args) => page::build(&mut out, args)?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,

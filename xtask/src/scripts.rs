@@ -25,10 +25,8 @@ pub fn cluster() -> io::Result<()> {
 }
 
 /// Builds the programs, with which files are compared, and runs `python/check.sh`.
-pub fn python(is_manylinux: bool) -> io::Result<()> {
-    let programs = programs::released();
-    let option = is_manylinux.then_some(OsStr::new("--manylinux"));
-    run("python/check.sh", &[[programs.as_os_str()].as_slice(), option.as_slice()].concat())
+pub fn python() -> io::Result<()> {
+    run("python/check.sh", &[programs::released().as_os_str()])
 }
 
 /// Runs `packages/build.sh`, and `packages/check.sh` if `is_checked`.

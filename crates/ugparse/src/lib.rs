@@ -81,7 +81,7 @@ mod wording;
 mod writer;
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, main};
+pub use cli::{Args, EXAMPLE_FILES, example_subject, main};
 pub use diagnostic::{Diagnostic, MAX_ERRORS, Setting, Severity};
 pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;

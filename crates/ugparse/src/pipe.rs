@@ -60,7 +60,11 @@ pub fn follow(source: Source, options: &Options, context: &Context) -> Result<So
     crate::include(source, options, |request| load(request, context))
 }
 
-fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
+/// The answer to a request of a scene: a file, or the output of a program.
+///
+/// # Errors
+/// The file cannot be read; the program cannot be run, or fails.
+pub fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
         RequestKind::Include | RequestKind::Path | RequestKind::Image => {
             Ok(context.read_named(request.path, request.room + 1)?)

@@ -9,15 +9,16 @@ macro_rules! files {
     ($($name:literal)*) => { [$(($name, include_bytes!(concat!("../../scenes/", $name)) as &[u8])),*] };
 }
 
-/// Names of files and their bytes.
-const FILES: [(&str, &[u8]); 51] = files![
+/// The scenes of the repository, with the pictures they name, a mesh and a list of stars: names of
+/// files and their bytes.
+pub const EXAMPLE_FILES: [(&str, &[u8]); 53] = files![
     "house.ug" "houses.ug" "ship.ug" "street.ug" "teapot.ug" "cubes.ug" "sphere.ug" "directions.ug"
     "lattice.ug" "grid.ug" "tunnel.ug" "die.ug" "poles.ug" "lamps.ug" "clocks.ug" "wheels.ug"
     "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
     "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
-    "room.ug" "water.ug" "rainbow.ug" "halves.ug" "town.ug" "saturn.ug" "stones.ug" "tram.ug"
-    "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "facade.png" "facade-yellow.png" "facade-brown.png"
-    "facade-grey.png" "paving.png" "globe.obj" "crate.gltf"
+    "room.ug" "water.ug" "marbles.ug" "rainbow.ug" "halves.ug" "avenue.ug" "town.ug" "saturn.ug"
+    "stones.ug" "tram.ug" "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "facade.png"
+    "facade-yellow.png" "facade-brown.png" "facade-grey.png" "paving.png" "crate.gltf" "globe.obj"
     "stars.csv"
 ];
 
@@ -25,7 +26,7 @@ const FILES: [(&str, &[u8]); 51] = files![
 #[derive(clap::Args, Debug)]
 pub struct ExampleArgs {
     /// File to write; without it, list the files
-    #[arg(value_name = "NAME", conflicts_with = "all", value_parser = one_of("examples", FILES.map(|(name, _)| short(name)).into_iter().zip(0_usize..)))]
+    #[arg(value_name = "NAME", conflicts_with = "all", value_parser = one_of("examples", EXAMPLE_FILES.map(|(name, _)| short(name)).into_iter().zip(0_usize..)))]
     name: Option<usize>,
 
     /// Write every file into the current folder
@@ -44,10 +45,10 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
         return write_all(context);
     }
     match args.name {
-        Some(row) => context.write(FILES[row].1),
+        Some(row) => context.write(EXAMPLE_FILES[row].1),
         None => {
-            let lines =
-                FILES.map(|(name, text)| format!("{:10} {}\n", short(name), subject(name, text)));
+            let lines = EXAMPLE_FILES
+                .map(|(name, text)| format!("{:10} {}\n", short(name), example_subject(text)));
             context.write_text(&lines.concat())
         }
     }
@@ -57,7 +58,7 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
 /// written.
 fn write_all(context: &mut Context) -> Result<(), Failure> {
     let mut missing = Vec::new();
-    for (name, text) in FILES {
+    for (name, text) in EXAMPLE_FILES {
         let path = PathBuf::from(name);
         if !path.exists() {
             missing.push((path, text));
@@ -74,15 +75,13 @@ fn write_all(context: &mut Context) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first sentence of the comment at the head of a file, or its part before a semicolon.
-fn subject(name: &str, text: &[u8]) -> String {
-    let text = match name.rsplit_once('.') {
-        Some((_, "png")) => return "a picture on walls of `town`".to_owned(),
-        Some((_, "gltf")) => return "A crate with a picture on its sides".to_owned(),
-        _ => str::from_utf8(text).unwrap_or_default(),
-    };
-    let comment = text.trim_start_matches(['{', '#']);
-    let end = [". ", ".\n", ";"].iter().filter_map(|mark| comment.find(mark)).min();
+/// What an example shows: the first sentence of the comment at the head of a file or of the history
+/// of a mesh, or its part before a semicolon.
+pub fn example_subject(text: &[u8]) -> String {
+    let Ok(text) = str::from_utf8(text) else { return "a picture on walls of `town`".to_owned() };
+    let history = text.split_once("\"history\": [").map(|(_, rows)| rows.trim_start());
+    let comment = history.unwrap_or(text).trim_start_matches(['{', '#', '"']);
+    let end = [". ", ".\n", ".\"", ";"].iter().filter_map(|mark| comment.find(mark)).min();
     let sentence = &comment[..end.unwrap_or(0)];
     sentence.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -6,6 +6,8 @@ mod measure;
 
 use std::process::ExitCode;
 
+pub use examples::{EXAMPLE_FILES, example_subject};
+
 use clap::{Parser, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs};

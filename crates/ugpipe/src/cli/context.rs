@@ -69,6 +69,8 @@ pub struct Context {
     command_line: String,
     /// The only files that are read, of a program that runs in memory.
     files: Option<Vec<Input>>,
+    /// Files in memory that the input may name, see [`Context::beside`].
+    beside: Vec<Input>,
 }
 
 impl Context {
@@ -83,6 +85,7 @@ impl Context {
             messages,
             command_line,
             files: None,
+            beside: Vec::new(),
         }
     }
 
@@ -123,6 +126,19 @@ impl Context {
         host: Arc<dyn Host>,
     ) -> Self {
         Self { given, ..Self::new(common, Messages::to_host(program, host), command_line) }
+    }
+
+    /// With files in memory: where the input names one of them by its path, it is read in place of
+    /// the file of the system, and stands for the output of a program of this path.
+    #[must_use]
+    pub fn beside(self, files: Vec<Input>) -> Self {
+        Self { beside: files, ..self }
+    }
+
+    /// The file of this path among those in memory.
+    fn found_beside(&self, path: &Path, limit: u64) -> Option<Vec<u8>> {
+        let found = self.beside.iter().find(|file| Path::new(&file.name) == path)?;
+        Some(first_bytes(found, limit))
     }
 
     /// Reads the whole input: the file that the user named, or standard input. Call it only once: a
@@ -187,6 +203,9 @@ impl Context {
         if self.files.is_some() {
             return Err(io::Error::new(io::ErrorKind::Unsupported, "No programs are run here"));
         }
+        if let Some(text) = self.found_beside(path, limit) {
+            return Ok(ProgramOutput { text, error_line: String::new(), failure: None });
+        }
         files::run_program(path, &self.place, limit)
     }
 
@@ -215,6 +234,9 @@ impl Context {
     }
 
     fn read_at(&self, path: &Path, place: &Place, limit: u64) -> io::Result<Vec<u8>> {
+        if let Some(found) = self.found_beside(path, limit) {
+            return Ok(found);
+        }
         match &self.files {
             Some(files) => in_memory(files, path).map(|file| first_bytes(file, limit)),
             None => files::read_file(path, place, limit),
