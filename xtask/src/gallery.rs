@@ -102,7 +102,7 @@ fn is_small(link: &Path) -> bool {
 
 /// Where the picture of a link is in the repository.
 fn place(page: &Page, link: &Path) -> PathBuf {
-    scenes::root().join(page.path).with_file_name("").join(link)
+    scenes::root().join(&page.path).with_file_name("").join(link)
 }
 
 /// Copies the pictures that a page refers to, from `folder` to the places that it names, in their
