@@ -20,6 +20,8 @@ const MOST_FRAMES: usize = 4096;
 pub struct Sight<'s> {
     script: &'s Script,
     boxes: BodyBoxes,
+    /// The scene has neither faces nor wires.
+    is_empty: bool,
 }
 
 /// The frames in which nothing is in the picture.
@@ -71,7 +73,8 @@ impl Shown {
 impl<'s> Sight<'s> {
     /// The bodies of a scene in a film.
     pub fn new(scene: &Scene, script: &'s Script) -> Self {
-        Self { script, boxes: BodyBoxes::new(scene) }
+        let is_empty = scene.faces.is_empty() && scene.wires.is_empty();
+        Self { script, boxes: BodyBoxes::new(scene), is_empty }
     }
 
     /// A frame that is wrong is reported when it is drawn.
@@ -81,6 +84,8 @@ impl<'s> Sight<'s> {
 
     /// The frames of these in which surely nothing is in the picture.
     pub fn unseen(&self, frames: &[u32]) -> Unseen {
+        // The first frame says what the scene lacks.
+        let frames = if self.is_empty { &[] } else { frames };
         let step = frames.len().div_ceil(MOST_FRAMES).max(1);
         let looked_at: Vec<u32> = frames.iter().copied().step_by(step).collect();
         let is_unseen = |frame: &u32| {

@@ -67,7 +67,9 @@ pub use pixels::Pixels;
 pub use png::Compression;
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
 pub use read_exr::{SpectralPicture, read_spectrum};
-pub use read_light::{ForeignKind, ReadPicture, check_picture, foreign_kind, read_picture};
+pub use read_light::{
+    ForeignKind, PictureHeader, ReadPicture, check_picture, foreign_kind, read_picture,
+};
 pub use spelled_color::spelled_color;
 pub use ugframe::{
     Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET,

@@ -171,14 +171,7 @@ fn decoded<P>(
 ) -> Result<([u32; 2], Vec<P>), ReadError> {
     let size = limits.check(size(&mut decoder)?, size_of::<P>() as u64)?;
     let mut reader = decoder.read_info().map_err(broken)?;
-    // As stored: a pixel may have one bit.
-    check_packed(n_file, reader.info().raw_bytes() as u64, MOST_INFLATED)?;
-    let n_palette = reader.info().palette.as_ref().map_or(0, |palette| palette.len());
-    if n_palette % 3 != 0 || n_palette > 3 * 256 {
-        // The decoder expects whole colours, as many as it has room for.
-        let problem = format!("not a readable PNG file: {n_palette} bytes are no palette");
-        return Err(ReadError::new(&problem));
-    }
+    check_info(reader.info(), n_file)?;
     let n_channels = match reader.output_color_type().0 {
         ColorType::Grayscale => 1,
         ColorType::GrayscaleAlpha => 2,
@@ -209,6 +202,30 @@ fn decoded<P>(
         return Err(ReadError::new("not a readable PNG file: rows are missing"));
     }
     Ok((size, pixels))
+}
+
+/// The size of a PNG file that [`read_png`] can read, by its header.
+///
+/// # Errors
+/// As [`read_png`], except for corrupt pixels.
+pub(crate) fn check_png(file: &[u8], limits: &PictureLimits) -> Result<[u32; 2], ReadError> {
+    let mut decoder = decoder(file)?;
+    let size = limits.check(size(&mut decoder)?, 4)?;
+    check_info(decoder.read_info().map_err(broken)?.info(), file.len())?;
+    Ok(size)
+}
+
+/// Refuses a header with more pixels than a file of `n_file` bytes can hold, and broken palettes.
+fn check_info(info: &png::Info<'_>, n_file: usize) -> Result<(), ReadError> {
+    // As stored: a pixel may have one bit.
+    check_packed(n_file, info.raw_bytes() as u64, MOST_INFLATED)?;
+    let n_palette = info.palette.as_ref().map_or(0, |palette| palette.len());
+    if n_palette % 3 != 0 || n_palette > 3 * 256 {
+        // The decoder expects whole colours, as many as it has room for.
+        let problem = format!("not a readable PNG file: {n_palette} bytes are no palette");
+        return Err(ReadError::new(&problem));
+    }
+    Ok(())
 }
 
 fn broken(error: png::DecodingError) -> ReadError {

@@ -29,22 +29,8 @@ pub(crate) fn read(
     declared: &mut Declared,
     notes: &mut Vec<String>,
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
-    /// Of headers, as the decoder of pixels checks them.
-    const PEDANTIC: bool = true;
     let broken = |error: &dyn std::fmt::Display| unreadable("EXR", error);
-    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), PEDANTIC);
-    let headers = headers.map_err(|error| broken(&error))?.headers;
-    // The first layer with these channels is read, so none may be too large.
-    for header in headers.iter().filter(|header| !header.deep) {
-        check_layer(header, file.len(), limits)?;
-    }
-    let flat = || headers.iter().filter(|header| !header.deep);
-    let colored = flat().find_map(|header| Some((header, Channels::colors_of(header)?)));
-    let Some((header, channels)) =
-        colored.or_else(|| flat().find_map(|header| Some((header, Channels::grey_of(header)?))))
-    else {
-        return Err(broken(&"it has no channels of colours"));
-    };
+    let (header, channels, size) = part(file, limits)?;
     if let Some(note) = &channels.note {
         notes.push(note.clone());
     }
@@ -62,7 +48,6 @@ pub(crate) fn read(
         Encoding::from_chromaticities([red, green, blue, white].map(pair), None)
     });
     let display = attributes.display_window;
-    let size = limits.check([display.size.width(), display.size.height()], N_BYTES_OF_LIGHT)?;
     let Vec2(x, y) = header.own_attributes.layer_position;
     let corner = [x, y].map(i64::from);
     let origin = [display.position.x(), display.position.y()].map(i64::from);
@@ -87,6 +72,37 @@ pub(crate) fn read(
         }
     }
     Ok((size, shown))
+}
+
+/// The size of the display window of a file by its headers; the pixels are not unpacked.
+///
+/// # Errors
+/// As [`read`], except for corrupt pixels.
+pub(crate) fn check(file: &[u8], limits: &PictureLimits) -> Result<[u32; 2], ReadError> {
+    Ok(part(file, limits)?.2)
+}
+
+/// The part of a file that is read: its header, its channels and the size of its display window.
+fn part(file: &[u8], limits: &PictureLimits) -> Result<(Header, Channels, [u32; 2]), ReadError> {
+    /// Of headers, as the decoder of pixels checks them.
+    const PEDANTIC: bool = true;
+    let broken = |error: &dyn std::fmt::Display| unreadable("EXR", error);
+    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), PEDANTIC);
+    let headers = headers.map_err(|error| broken(&error))?.headers;
+    // The first layer with these channels is read, so none may be too large.
+    for header in headers.iter().filter(|header| !header.deep) {
+        check_layer(header, file.len(), limits)?;
+    }
+    let flat = || headers.iter().filter(|header| !header.deep);
+    let colored = flat().find_map(|header| Some((header, Channels::colors_of(header)?)));
+    let Some((header, channels)) =
+        colored.or_else(|| flat().find_map(|header| Some((header, Channels::grey_of(header)?))))
+    else {
+        return Err(broken(&"it has no channels of colours"));
+    };
+    let display = header.shared_attributes.display_window;
+    let size = limits.check([display.size.width(), display.size.height()], N_BYTES_OF_LIGHT)?;
+    Ok((header.clone(), channels, size))
 }
 
 /// A picture of radiances at wavelengths.

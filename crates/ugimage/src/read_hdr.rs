@@ -16,13 +16,8 @@ pub(crate) fn read(
     limits: &PictureLimits,
     declared: &mut Declared,
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
-    let mut rest = file;
-    let ([width, height], factors) = header(&mut rest, declared)?;
-    let size = limits.check([width, height], 16)?;
-    // A row is a pixel or more.
-    if rest.len() as u64 / 4 < height as u64 {
-        return Err(truncated());
-    }
+    let (size, factors, mut rest) = checked(file, limits, declared)?;
+    let [width, height] = size.map(|side| side as usize);
     // A header that lies reserves as many pixels as the file has bytes. Runs may fill more.
     let n_pixels = width * height;
     let mut pixels = reserved(n_pixels.min(rest.len()))?;
@@ -38,6 +33,31 @@ pub(crate) fn read(
         }
     }
     Ok((size, pixels))
+}
+
+/// The size of a file by its header; the pixels are not unpacked.
+///
+/// # Errors
+/// As [`read`], except for corrupt pixels.
+pub(crate) fn check(file: &[u8], limits: &PictureLimits) -> Result<[u32; 2], ReadError> {
+    let mut declared = Declared { encoding: None, orientation: 1, xmp: None };
+    Ok(checked(file, limits, &mut declared)?.0)
+}
+
+/// The size, the factors of the header, and the packed pixels.
+fn checked<'f>(
+    file: &'f [u8],
+    limits: &PictureLimits,
+    declared: &mut Declared,
+) -> Result<([u32; 2], [f32; 3], &'f [u8]), ReadError> {
+    let mut rest = file;
+    let ([width, height], factors) = header(&mut rest, declared)?;
+    let size = limits.check([width, height], 16)?;
+    // A row is a pixel or more.
+    if rest.len() as u64 / 4 < height as u64 {
+        return Err(truncated());
+    }
+    Ok((size, factors, rest))
 }
 
 fn broken(what: &str) -> ReadError {

@@ -5,6 +5,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
+use crate::encoding::Encoding;
 use crate::orientation::{self, upright};
 use crate::panorama::part_of_xmp;
 use crate::pixels::Pixels;
@@ -82,25 +83,59 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
     Ok(ReadPicture { size, pixels, part, notes })
 }
 
-/// Checks the kind of a picture by the first bytes of its file and, of PNG and JPEG, its size by
-/// its header. The pixels are not decoded.
+/// The size of a picture, known before its pixels are decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureHeader {
+    /// Width and height as stored, before the picture is turned upright.
+    pub size: [u32; 2],
+    /// Bytes of a decoded pixel: 4 with 8 bits per channel, and 16 as light.
+    pub n_bytes_of_pixel: u64,
+}
+
+impl PictureHeader {
+    /// Bytes of the decoded pixels with those of all mip levels, which are light: each level has
+    /// half the columns and rows of the one before, down to one pixel.
+    pub fn n_bytes_with_levels(&self) -> u64 {
+        let n_pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
+        let (mut size, mut n_in_levels) = (self.size, 0);
+        while size.iter().any(|&side| side > 1) {
+            size = size.map(|side| side.div_ceil(2));
+            n_in_levels += n_pixels(size);
+        }
+        self.n_bytes_of_pixel * n_pixels(self.size) + N_BYTES_OF_LIGHT * n_in_levels
+    }
+}
+
+/// Bytes of a pixel of light.
+const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
+
+/// Checks a picture by its headers, without decoding its pixels: its kind, its size, whether the
+/// file can hold as many pixels and, of EXR, whether it has colours.
 ///
 /// # Errors
 /// [`ReadError`] for files that [`read_picture`] refuses for these reasons.
-pub fn check_picture(file: &[u8], limits: &PictureLimits) -> Result<(), ReadError> {
-    match file {
-        [0x89, b'P', b'N', b'G', ..] => read::read_png_header(file).map(|_| ()),
-        [0xff, 0xd8, 0xff, ..] => {
-            let mut decoder = JpegDecoder::new(ZCursor::new(file));
-            decoder.decode_headers().map_err(|error| unreadable("JPEG", &error))?;
-            let (width, height) = decoder.dimensions().unwrap_or_default();
-            limits.check([width, height], 1).map(|_| ())
+pub fn check_picture(file: &[u8], limits: &PictureLimits) -> Result<PictureHeader, ReadError> {
+    let light = |size| PictureHeader { size, n_bytes_of_pixel: N_BYTES_OF_LIGHT };
+    let header = match file {
+        [0x89, b'P', b'N', b'G', ..] => {
+            let is_light =
+                is_png_deep(file) || read::declared(file, &mut Vec::new()).encoding.is_some();
+            let n_bytes_of_pixel = if is_light { N_BYTES_OF_LIGHT } else { N_BYTES_OF_BYTES };
+            PictureHeader { size: read::check_png(file, limits)?, n_bytes_of_pixel }
         }
-        [b'#', b'?', ..]
-        | [0x76, 0x2f, 0x31, 0x01, ..]
-        | [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => Ok(()),
-        _ => Err(not_a_picture(file)),
-    }
+        [0xff, 0xd8, 0xff, ..] => {
+            let mut jpeg = Jpeg::new(file, limits)?;
+            let is_light = jpeg.encoding(&mut Vec::new()).is_some();
+            let n_bytes_of_pixel = if is_light { N_BYTES_OF_LIGHT } else { N_BYTES_OF_BYTES };
+            PictureHeader { size: jpeg.size, n_bytes_of_pixel }
+        }
+        [b'#', b'?', ..] => light(read_hdr::check(file, limits)?),
+        [0x76, 0x2f, 0x31, 0x01, ..] => light(read_exr::check(file, limits)?),
+        [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => light(read_pfm::check(file, limits)?),
+        _ => return Err(not_a_picture(file)),
+    };
+    limits.check(header.size.map(|side| side as usize), header.n_bytes_of_pixel)?;
+    Ok(header)
 }
 
 fn not_a_picture(file: &[u8]) -> ReadError {
@@ -110,50 +145,77 @@ fn not_a_picture(file: &[u8]) -> ReadError {
     }
 }
 
+/// Bytes of a pixel with 8 bits per channel: red, green, blue and alpha.
+const N_BYTES_OF_BYTES: u64 = size_of::<[u8; 4]>() as u64;
+
+/// A JPEG file whose headers were read.
+struct Jpeg<'f> {
+    decoder: JpegDecoder<ZCursor<&'f [u8]>>,
+    size: [u32; 2],
+    /// Bytes of a pixel while it is decoded.
+    n_bytes: usize,
+}
+
+impl<'f> Jpeg<'f> {
+    fn new(file: &'f [u8], limits: &PictureLimits) -> Result<Self, ReadError> {
+        /// Bytes of the coefficients of a pixel, which a progressive file needs all at once.
+        const N_BYTES_OF_COEFFICIENTS: usize = 6;
+        let broken = |error: &dyn std::fmt::Display| unreadable("JPEG", error);
+        // The decoder fills what is missing of a truncated file with grey.
+        let Some(Packed { n_bytes: n_packed, is_progressive }) = packed(file) else {
+            return Err(broken(&"the file is truncated"));
+        };
+        let options = DecoderOptions::default()
+            .jpeg_set_out_colorspace(ColorSpace::RGB)
+            .set_max_width(usize::from(u16::MAX))
+            .set_max_height(usize::from(u16::MAX));
+        let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
+        decoder.decode_headers().map_err(|error| broken(&error))?;
+        let (width, height) = decoder.dimensions().ok_or_else(|| broken(&"it has no size"))?;
+        let n_more = if is_progressive { N_BYTES_OF_COEFFICIENTS } else { 0 };
+        let n_bytes = N_BYTES_OF_BYTES as usize + n_more;
+        let size = limits.check([width, height], n_bytes as u64)?;
+        let n_pixels = width * height;
+        // Each block of 64 pixels has a bit or more.
+        check_packed(n_packed, n_pixels as u64, 8 * 64)?;
+        if decoder.output_buffer_size() != Some(3 * n_pixels) {
+            return Err(broken(&"its colours are not red, green and blue"));
+        }
+        Ok(Self { decoder, size, n_bytes })
+    }
+
+    /// The encoding that its profile states, unless it is sRGB.
+    fn encoding(&mut self, notes: &mut Vec<String>) -> Option<Encoding> {
+        // Profiles of CMYK are for the inks, which the decoder converts without one.
+        let space = self.decoder.input_colorspace();
+        let is_ink = matches!(space, Some(ColorSpace::CMYK | ColorSpace::YCCK));
+        let profile = self.decoder.icc_profile().filter(|_| !is_ink);
+        profile.and_then(|profile| encoding_of_profile(&profile, notes))
+    }
+}
+
 fn jpeg(
     file: &[u8],
     limits: &PictureLimits,
     declared: &mut Declared,
     notes: &mut Vec<String>,
 ) -> Result<([u32; 2], Pixels), ReadError> {
-    /// Bytes of a pixel: red, green, blue and alpha.
-    const N_BYTES: usize = 4;
-    /// Bytes of its coefficients, which a progressive file needs all at once.
-    const N_BYTES_OF_COEFFICIENTS: usize = 6;
-    let broken = |error: &dyn std::fmt::Display| unreadable("JPEG", error);
-    // The decoder fills what is missing of a truncated file with grey.
-    let Some(Packed { n_bytes: n_packed, is_progressive }) = packed(file) else {
-        return Err(broken(&"the file is truncated"));
-    };
-    let options = DecoderOptions::default()
-        .jpeg_set_out_colorspace(ColorSpace::RGB)
-        .set_max_width(usize::from(u16::MAX))
-        .set_max_height(usize::from(u16::MAX));
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
-    decoder.decode_headers().map_err(|error| broken(&error))?;
-    let (width, height) = decoder.dimensions().ok_or_else(|| broken(&"it has no size"))?;
-    let n_bytes = N_BYTES + if is_progressive { N_BYTES_OF_COEFFICIENTS } else { 0 };
-    let size = limits.check([width, height], n_bytes as u64)?;
-    let n_pixels = width * height;
-    // Each block of 64 pixels has a bit or more.
-    check_packed(n_packed, n_pixels as u64, 8 * 64)?;
-    if decoder.output_buffer_size() != Some(3 * n_pixels) {
-        return Err(broken(&"its colours are not red, green and blue"));
-    }
+    const N_BYTES: usize = N_BYTES_OF_BYTES as usize;
+    let mut jpeg = Jpeg::new(file, limits)?;
+    let n_pixels = jpeg.size[0] as usize * jpeg.size[1] as usize;
     // Reserved before the decoder allocates as much.
-    drop(reserved::<u8>(n_bytes * n_pixels)?);
+    drop(reserved::<u8>(jpeg.n_bytes * n_pixels)?);
     let mut pixels = vec![[0; N_BYTES]; n_pixels];
     let bytes = pixels.as_flattened_mut();
-    decoder.decode_into(&mut bytes[..3 * n_pixels]).map_err(|error| broken(&error))?;
+    let decoded = jpeg.decoder.decode_into(&mut bytes[..3 * n_pixels]);
+    decoded.map_err(|error| unreadable("JPEG", &error))?;
     // The decoder has no alpha for all kinds of colours, so pixels are spread in their place.
     for idx in (0..n_pixels).rev() {
         let [red, green, blue] = [bytes[3 * idx], bytes[3 * idx + 1], bytes[3 * idx + 2]];
         bytes[N_BYTES * idx..N_BYTES * (idx + 1)].copy_from_slice(&[red, green, blue, u8::MAX]);
     }
-    // Profiles of CMYK are for the inks, which the decoder converts without one.
-    let is_ink = matches!(decoder.input_colorspace(), Some(ColorSpace::CMYK | ColorSpace::YCCK));
-    let profile = decoder.icc_profile().filter(|_| !is_ink);
-    declared.encoding = profile.and_then(|profile| encoding_of_profile(&profile, notes));
+    declared.encoding = jpeg.encoding(notes);
+    let Jpeg { decoder, size, .. } = jpeg;
     declared.orientation = decoder.exif().map_or(1, |exif| orientation::of_exif(exif));
     declared.xmp = decoder.xmp().map(|xmp| String::from_utf8_lossy(xmp).into_owned());
     Ok((size, Pixels::Srgb(pixels)))

@@ -13,6 +13,43 @@ pub(crate) fn read(
     file: &[u8],
     limits: &PictureLimits,
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+    let Samples { size, n_channels, scale, data } = samples(file, limits)?;
+    let sample = |bytes: &[u8]| {
+        let bytes = bytes.try_into().unwrap_or_default();
+        if scale < 0.0 { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) }
+    };
+    let [width, height] = size.map(|side| side as usize);
+    let n_bytes_of_row = N_BYTES_OF_SAMPLE * n_channels * width;
+    let mut pixels = reserved(width * height)?;
+    for row in data.chunks_exact(n_bytes_of_row.max(1)).rev() {
+        pixels.extend(row.chunks_exact(N_BYTES_OF_SAMPLE * n_channels).map(|bytes| {
+            let channel = |idx: usize| {
+                let start = N_BYTES_OF_SAMPLE * (idx % n_channels);
+                sample(&bytes[start..start + N_BYTES_OF_SAMPLE])
+            };
+            [channel(0), channel(1), channel(2), 1.0]
+        }));
+    }
+    Ok((size, pixels))
+}
+
+/// A file whose header was read.
+struct Samples<'f> {
+    size: [u32; 2],
+    n_channels: usize,
+    scale: f32,
+    data: &'f [u8],
+}
+
+/// The size of a file that [`read`] can read; the samples are not converted.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn check(file: &[u8], limits: &PictureLimits) -> Result<[u32; 2], ReadError> {
+    Ok(samples(file, limits)?.size)
+}
+
+fn samples<'f>(file: &'f [u8], limits: &PictureLimits) -> Result<Samples<'f>, ReadError> {
     let mut rest = file;
     let n_channels = match word(&mut rest) {
         Some("PF") => 3,
@@ -29,13 +66,8 @@ pub(crate) fn read(
     let Some(scale) = word(&mut rest).and_then(|word| word.parse::<f32>().ok()) else {
         return Err(broken("its scale is not a number"));
     };
-    let sample = |bytes: &[u8]| {
-        let bytes = bytes.try_into().unwrap_or_default();
-        if scale < 0.0 { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) }
-    };
-    let n_bytes_of_row = N_BYTES_OF_SAMPLE * n_channels * width;
     // The line of the scale may end with CR LF, or with blanks before the line feed.
-    let n_bytes = n_bytes_of_row * height;
+    let n_bytes = N_BYTES_OF_SAMPLE * n_channels * width * height;
     let n_more = rest.len().saturating_sub(n_bytes);
     let has_ended = file[..file.len() - rest.len()].ends_with(b"\n");
     let n_blank = rest.iter().take(n_more).take_while(|byte| byte.is_ascii_whitespace()).count();
@@ -51,17 +83,7 @@ pub(crate) fn read(
             "it goes on after its pixels: its size or its number of channels is wrong",
         ));
     }
-    let mut pixels = reserved(width * height)?;
-    for row in data.chunks_exact(n_bytes_of_row.max(1)).rev() {
-        pixels.extend(row.chunks_exact(N_BYTES_OF_SAMPLE * n_channels).map(|bytes| {
-            let channel = |idx: usize| {
-                let start = N_BYTES_OF_SAMPLE * (idx % n_channels);
-                sample(&bytes[start..start + N_BYTES_OF_SAMPLE])
-            };
-            [channel(0), channel(1), channel(2), 1.0]
-        }));
-    }
-    Ok((size, pixels))
+    Ok(Samples { size, n_channels, scale, data })
 }
 
 fn broken(what: &str) -> ReadError {

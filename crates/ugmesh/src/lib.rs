@@ -213,7 +213,9 @@ fn load(config: &Config, format: MeshFormat, input: &MeshFile) -> Result<Loaded,
     if format == MeshFormat::Ug {
         return load_scene(config, input);
     }
-    let read = || ugmeshfile::read(format, &input.bytes, input.read_file, &config.name);
+    let memory = config.reading.limits.get(ugparse::Limit::Memory);
+    let read =
+        || ugmeshfile::read_within(format, &input.bytes, input.read_file, &config.name, memory);
     let (read, origin) = ugparse::with_origin(input.origin.as_ref(), &input.bytes, read);
     let MeshScene { mut scene, warnings, .. } =
         read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;

@@ -40,7 +40,7 @@ pub use axes::{Axis, from_z_up, rotate, to_z_up};
 pub use error::Problem;
 pub use foreign::{Foreign, foreign_data};
 pub use format::MeshFormat;
-pub use read::{picture_within, read};
+pub use read::{picture_within, read, read_within};
 pub use textures::check_picture;
 pub use vtk_polygons::VtkPolygons;
 

@@ -11,20 +11,23 @@ use crate::builder::{Builder, Rgba};
 /// Largest number of bytes of a picture file.
 pub(crate) const MAX_TEXTURE_BYTES: u64 = 1 << 28;
 
-/// Checks the kind and the size of a picture file, without decoding its pixels.
+/// Checks a picture file by its headers, without decoding its pixels. Returns the bytes of its
+/// pixels and mip levels, as renderers decode them.
 ///
 /// # Errors
 /// The reason why it cannot be read.
-pub fn check_picture(file: &[u8]) -> Result<(), String> {
-    ugimage::check_picture(file, &PictureLimits::default()).map_err(|error| error.to_string())
+pub fn check_picture(file: &[u8]) -> Result<u64, String> {
+    let limits = PictureLimits { bytes: u64::MAX, ..PictureLimits::default() };
+    let header = ugimage::check_picture(file, &limits).map_err(|error| error.to_string())?;
+    Ok(header.n_bytes_with_levels())
 }
 
 /// The textures of a mesh, each of which is read once.
-#[derive(Default)]
 pub(crate) struct Textures {
     /// By name, or why there is none.
     loaded: BTreeMap<String, Result<LoadedTexture, String>>,
-    limits: PictureLimits,
+    /// Bytes that their pixels and mip levels may still have.
+    room: u64,
 }
 
 /// A picture of a material.
@@ -44,6 +47,11 @@ pub(crate) enum TextureOrigin {
 }
 
 impl Textures {
+    /// `memory`: the most bytes of the pixels and mip levels of all textures together.
+    pub fn new(memory: u64) -> Self {
+        Self { loaded: BTreeMap::new(), room: memory }
+    }
+
     /// A texture, if it can be read. `load` returns its bytes and where they are from.
     pub fn load(
         &mut self,
@@ -64,12 +72,17 @@ impl Textures {
         self.loaded.get(name)?.clone().ok()
     }
 
-    /// The limit is that of all textures together, with their files.
     fn mean_of_file(&mut self, file: &[u8]) -> Result<[f64; 3], String> {
-        let pixels = read_picture(file, &self.limits).map_err(|error| error.to_string())?.pixels;
-        let n_bytes = pixels.n_bytes().saturating_add(file.len() as u64);
-        self.limits.bytes = self.limits.bytes.saturating_sub(n_bytes);
-        Ok(mean(&pixels))
+        let n_bytes = check_picture(file)?;
+        if n_bytes > self.room {
+            return Err(format!(
+                "its pixels and mip levels are {n_bytes} bytes, and {} are left of the limit of memory",
+                self.room
+            ));
+        }
+        let limits = PictureLimits { bytes: self.room, ..PictureLimits::default() };
+        self.room -= n_bytes;
+        Ok(mean(&read_picture(file, &limits).map_err(|error| error.to_string())?.pixels))
     }
 
     /// Warns of textures that cannot be read.

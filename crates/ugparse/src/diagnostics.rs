@@ -56,6 +56,11 @@ impl Diagnostics {
         Self { list, omitted, source: Box::new(source) }
     }
 
+    /// Adds an error about the whole source.
+    pub fn with_error(self, source: &Source, message: String) -> Self {
+        self.with(source, Diagnostic::error(Span::WHOLE_FILE, message))
+    }
+
     /// With another finding.
     pub fn with(self, source: &Source, finding: Diagnostic) -> Self {
         let mut list = self.list;

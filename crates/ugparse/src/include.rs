@@ -72,6 +72,7 @@ pub fn include(
         tables: FxHashMap::default(),
         images: Images::new(),
         n_image_bytes: 0,
+        n_texel_bytes: 0,
         mesh_files: FxHashMap::default(),
         out: Vec::new(),
     };
@@ -141,6 +142,8 @@ struct Inclusion<'i> {
     n_bytes: u64,
     images: Images,
     n_image_bytes: u64,
+    /// Bytes of their pixels and mip levels, decoded.
+    n_texel_bytes: u64,
     /// Meshes that pictures are within.
     mesh_files: FxHashMap<PathBuf, Arc<[u8]>>,
     out: Vec<u8>,
@@ -229,7 +232,7 @@ impl Inclusion<'_> {
     /// The picture that a file is, or that is in a mesh.
     #[cfg(feature = "cli")]
     fn picture(
-        &self,
+        &mut self,
         statement: RequestStatement,
         file: &Arc<[u8]>,
         path: &Path,
@@ -239,20 +242,30 @@ impl Inclusion<'_> {
             None => Ok(Arc::clone(file)),
         };
         let checked =
-            picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
-        checked.map_err(|problem| {
+            picture.and_then(|picture| Ok((ugmeshfile::check_picture(&picture)?, picture)));
+        let (n_bytes, picture) = checked.map_err(|problem| {
             let help = match statement.row {
                 Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
                 None => "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels",
             };
             let message = format!("cannot read `{}`: {problem}", path.display());
             self.refused(statement, message, help)
-        })
+        })?;
+        self.n_texel_bytes = self.n_texel_bytes.saturating_add(n_bytes);
+        if self.n_texel_bytes > self.options.limits.get(Limit::Memory) {
+            let message = format!(
+                "the pixels of `{}` and of all pictures before it are {} bytes with mip levels",
+                path.display(),
+                self.n_texel_bytes
+            );
+            return Err(self.limited(statement, &message, Limit::Memory, "make them smaller"));
+        }
+        Ok(picture)
     }
 
     #[cfg(not(feature = "cli"))]
     fn picture(
-        &self,
+        &mut self,
         _: RequestStatement,
         file: &Arc<[u8]>,
         _: &Path,

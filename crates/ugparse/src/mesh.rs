@@ -9,7 +9,7 @@ use ugmeshfile::{Lines, MeshFormat, MeshScene, Problem};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostics::Diagnostics;
 use crate::expand::Origins;
-use crate::options::Options;
+use crate::options::{Limit, Options};
 use crate::request::{Request, RequestError, RequestKind, name_pictures};
 use crate::source::{Source, Span};
 use crate::{Parsed, check_length};
@@ -26,7 +26,8 @@ pub(crate) fn read(
     check_length(&source, options)?;
     let load = RefCell::new(load);
     let read_file = |name: &str, limit: u64| beside(&source, name, limit, &mut *load.borrow_mut());
-    let mesh = ugmeshfile::read(format, &source.text, &read_file, "")
+    let memory = options.limits.get(Limit::Memory);
+    let mesh = ugmeshfile::read_within(format, &source.text, &read_file, "", memory)
         .map_err(|problem| Diagnostics::one(&source, malformed(&source, format, problem)))?;
     source.mesh = Some(Box::new(Some(parsed(&source, format, mesh))));
     Ok(source)

@@ -17,9 +17,6 @@ pub enum Error {
     /// The text of the scene has errors.
     #[error(transparent)]
     Text(#[from] Diagnostics),
-    /// The scene has no faces.
-    #[error("the scene has no faces, so rays meet nothing")]
-    Empty,
     /// Round faces on world lines would become too many polygons.
     #[error(transparent)]
     TooManyPolygons(#[from] ugscene::TooManyPolygons),

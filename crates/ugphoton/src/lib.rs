@@ -63,6 +63,7 @@ mod open_solids;
 mod pixel_centers;
 mod pixels;
 mod render;
+mod rounds;
 mod sampling;
 mod scenery;
 mod shade;

@@ -2,7 +2,8 @@
 
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace, light_names};
 use ugphysics::Event;
-use ugpicture::Note;
+use ugpicture::lens::Lens;
+use ugpicture::{Note, is_all_transparent, why_nothing_is_seen};
 use ugscene::{Face, SurfaceProperties};
 
 use crate::config::Config;
@@ -67,7 +68,12 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
     }
     notes.extend(match statistics {
         Statistics { n_covered: 0, .. } if scenery.sky.is_some() => None,
-        Statistics { n_covered: 0, .. } => Some(Note::NothingMet),
+        Statistics { n_covered: 0, .. } => {
+            let is_flat = config.lens == Lens::Pinhole && config.stereo.is_none();
+            Some(why_nothing_is_seen(scene, is_flat.then_some(view), false))
+        }
+        // Fully transparent faces cover samples, since they may mirror.
+        Statistics { n_visible: 0, .. } if is_all_transparent(scene) => Some(Note::AllTransparent),
         Statistics { n_visible: 0, .. } => Some(Note::BlackFaces),
         _ => None,
     });

@@ -143,6 +143,26 @@ pub fn preview(
     LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels.collect())
 }
 
+/// The light of every `step`-th pixel across and down, without channels.
+pub fn sparse(scenery: &Scenery<'_>, config: &Config, step: u32) -> LinearFrame {
+    let whole = Painting::new(scenery, config);
+    let [width, height] = whole.size.map(|side| side.div_ceil(step));
+    let middle = |at: u32, side: u32| (at * step + step / 2).min(side - 1);
+    let pixels = (0..width * height)
+        .into_par_iter()
+        .map_init(
+            || (Painting::new(scenery, config), Tracer::new(scenery), Packet::default()),
+            |(painting, tracer, packet), idx| {
+                let column = middle(idx % width, painting.size[0]);
+                let row = middle(idx / width, painting.size[1]);
+                painting.area = [column..column + 1, row..row + 1];
+                painting.tile([0, 0], tracer, packet).pixels[0]
+            },
+        )
+        .collect();
+    LinearFrame::new([width, height], whole.backdrop.is_opaque(), pixels)
+}
+
 /// A sample of a pixel with the surfaces that contribute to it.
 pub struct ExplainedRay {
     /// Its column and row in the picture.

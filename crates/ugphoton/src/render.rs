@@ -115,8 +115,16 @@ impl PreparedScene {
         progress.step("reading", 0);
         let parsed = read(config, source)?;
         let boxes = notes_view.then(|| BodyBoxes::new(&parsed.scene));
-        let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
-        Ok((Self { boxes, ..drawing }, parsed.warnings))
+        match Self::new(parsed.scene, config, canvas, provenance, progress) {
+            Ok(drawing) => Ok((Self { boxes, ..drawing }, parsed.warnings)),
+            // A warning says what a mesh without faces has.
+            Err(Error::Picture(error @ ugpicture::Error::Empty(_)))
+                if !parsed.warnings.is_empty() =>
+            {
+                Err(parsed.warnings.with_error(source, error.to_string()).into())
+            }
+            Err(error) => Err(error),
+        }
     }
 
     /// Prepares a scene. `canvas`: of these options.
@@ -280,7 +288,7 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     if config.picture.annotations.outline {
         ugscene::cut_rounds(&mut scene, |_, _, _| Some(ugscene::FINE_SAGITTA))?;
     }
-    ugscene::cut_rounds_on_world_lines(&mut scene)?;
+    crate::rounds::cut_on_world_lines(&mut scene, config)?;
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;

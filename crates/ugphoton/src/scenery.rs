@@ -18,6 +18,7 @@ use crate::error::{Error, MOST_LIGHTINGS};
 use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
 use crate::media::{Media, Solid};
+use ugpicture::WithoutFaces;
 use ugpicture::rays::{Faces, Intersection, PacketMemory, PastRay, World};
 use ugpicture::textures::Textures;
 
@@ -98,7 +99,7 @@ impl<'a> Scenery<'a> {
     /// There are no faces, or the camera is invalid.
     pub fn new(scene: Cow<'a, Scene>, config: &Config) -> Result<Self, Error> {
         if scene.faces.is_empty() && !config.sky.is_some() {
-            return Err(Error::Empty);
+            return Err(ugpicture::Error::Empty(WithoutFaces::new(&scene)).into());
         }
         if ShownEffects::of(&scene) != ShownEffects::default() {
             return Err(Error::PartialGeometry);
@@ -140,9 +141,10 @@ impl<'a> Scenery<'a> {
             return Err(Error::MovingMedium { name: name.to_string() });
         }
         let face_colors = appearance.all_face_colors(&scene);
+        let memory = config.reading.limits.get(ugparse::Limit::Memory);
+        let light = |color| uglight::RestColor::new(&scene, Some(color)).linear();
         let textures =
-            Textures::new(&scene, |color| uglight::RestColor::new(&scene, Some(color)).linear())
-                .map_err(|error| Error::Picture(error.into()))?;
+            Textures::new(&scene, memory, light).map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, Event::ORIGIN);
         let is_spectral = shift.is_spectral();

@@ -5,6 +5,7 @@ use ugimage::label::MissingCharacter;
 use ugpipe::Stopped;
 use ugscene::CameraError;
 
+use crate::WithoutFaces;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 
 /// Why there is no picture.
@@ -29,6 +30,9 @@ pub enum Error {
         height = .0[1]
     )]
     Memory([u32; 2], u64),
+    /// The scene has nothing that a picture could show.
+    #[error("{0}")]
+    Empty(WithoutFaces),
     /// A texture cannot be read.
     #[error(transparent)]
     Texture(#[from] crate::textures::TextureError),

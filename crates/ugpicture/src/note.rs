@@ -70,21 +70,24 @@ pub enum Note {
     /// Everything is outside the picture.
     #[error("nothing is drawn: everything is outside the picture, where fast bodies often are")]
     NothingInPicture,
-    /// No ray meets a face.
-    #[error("nothing is drawn: everything is outside the picture, where fast bodies often are")]
-    NothingMet,
+    /// All faces have colours that let all light through.
+    #[error("nothing is drawn: all faces are fully transparent")]
+    AllTransparent,
     /// The panorama is outside the picture.
     #[error("the picture shows no part of the panorama")]
     NoPanorama,
     /// The list has no stars.
     #[error("the list has no stars")]
     NoStars,
-    /// Everything is culled, or smaller than a sample.
-    #[error("nothing is drawn: everything is seen from behind, or smaller than a sample")]
+    /// Everything is culled.
+    #[error("nothing is drawn: everything is seen from behind")]
     BackFacing,
-    /// Everything is seen edge-on, or smaller than a sample.
-    #[error("nothing is drawn: everything is seen edge-on or smaller than a sample")]
+    /// Everything is seen edge-on.
+    #[error("nothing is drawn: everything is seen edge-on, thinner than a sample")]
     EdgeOn,
+    /// Everything is smaller than a sample.
+    #[error("nothing is drawn: everything is smaller than a sample")]
+    TooSmall,
     /// Black lines on a black background.
     #[error("the lines are black on black")]
     BlackLines,
@@ -215,11 +218,12 @@ impl Note {
             self,
             Self::NothingInFront
                 | Self::NothingInPicture
-                | Self::NothingMet
+                | Self::AllTransparent
                 | Self::NoPanorama
                 | Self::NoStars
                 | Self::BackFacing
                 | Self::EdgeOn
+                | Self::TooSmall
         )
     }
 

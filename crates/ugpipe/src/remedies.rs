@@ -64,11 +64,12 @@ pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction a
 pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
 
 /// Nothing is in front of the eye.
-pub const NOTHING_IN_FRONT: &str = "{}; try `uglorentz --keep-in-view`, another -ep or -vc";
+pub const NOTHING_IN_FRONT: &str =
+    "{}; try --keep-in-view (uglorentz, ugphoton), another -ep or -vc";
 
 /// Nothing is in the picture.
 pub const NOTHING_IN_PICTURE: &str =
-    "{}; try `uglorentz --keep-in-view`, another -vc or a wider -va";
+    "{}; try --keep-in-view (uglorentz, ugphoton), another -vc or a wider -va";
 
 /// Most or everything is shifted out of the visible range.
 pub const OUT_OF_RANGE: &str =

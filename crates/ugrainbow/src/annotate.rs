@@ -22,7 +22,7 @@ pub fn find_items(
 ) -> Result<(), Error> {
     let config = plain(config, each_sample);
     let setup = Setup::new(scene, &config)?;
-    let layers = RenderLayers::new(&setup, &config);
+    let layers = RenderLayers::new(&setup, &config)?;
     let surface = |center: &Center<'_>| center.opaque.map(of_surface);
     let seen = with_rasterizer!(layers, |rasterizer| rasterizer
         .paint_centers(surface, &layers.progress()));
@@ -44,7 +44,7 @@ pub fn visible_wires(
     let mut config = plain(config, false);
     config.picture.camera = camera.clone();
     let setup = Setup::new(scene, &config)?;
-    let layers = RenderLayers::new(&setup, &config);
+    let layers = RenderLayers::new(&setup, &config)?;
     Ok(layers.strokes().iter().map(|stroke| stroke.ends.map(|end| [end.x, end.y])).collect())
 }
 

@@ -6,25 +6,6 @@ use crate::planar::clip_edges;
 
 use ugraster::Corner;
 
-/// How many faces and lines are left after clipping.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ClipCounts {
-    /// Faces and lines at least partly between the clipping planes.
-    pub in_front: usize,
-    /// Faces and lines of these that are in the picture.
-    pub in_picture: usize,
-}
-
-impl ClipCounts {
-    /// The counts of two parts of a scene together.
-    pub fn merge(self, other: Self) -> Self {
-        Self {
-            in_front: self.in_front + other.in_front,
-            in_picture: self.in_picture + other.in_picture,
-        }
-    }
-}
-
 /// A corner before projection, with the numbers to interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex<const N: usize> {

@@ -17,15 +17,15 @@ use crate::setup::Setup;
 pub fn prepare<'a>(scene: &'a Scene, config: &Config) -> Result<Setup<'a>, Error> {
     let mut setup = Setup::new(scene, config)?;
     if let Some(cue) = config.depth_cue.filter(|cue| cue.range.is_none()) {
-        setup.grid.fade = visible_depths(&setup, config).map(|range| cue.between(range));
+        setup.grid.fade = visible_depths(&setup, config)?.map(|range| cue.between(range));
     }
     Ok(setup)
 }
 
 /// The least and greatest visible depth, rounded to four digits so that a note can state them
 /// exactly.
-fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
-    let layers = RenderLayers::new(setup, config);
+fn visible_depths(setup: &Setup<'_>, config: &Config) -> Result<Option<[f64; 2]>, Error> {
+    let layers = RenderLayers::new(setup, config)?;
     let ends = |center: &Center<'_>| {
         let opaque = center.opaque.iter().map(|hit| hit.key);
         let keys = opaque.chain(center.fragments.iter().map(|fragment| fragment.key));
@@ -36,12 +36,12 @@ fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
     let keys =
         with_rasterizer!(layers, |rasterizer| rasterizer.paint_centers(ends, &layers.progress()));
     let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];
-    let [farthest, nearest] = keys.into_iter().reduce(join)?;
+    let Some([farthest, nearest]) = keys.into_iter().reduce(join) else { return Ok(None) };
     let depth = |key: f32| {
         let depth = setup.grid.depth(f64::from(key));
         format!("{depth:.3e}").parse().unwrap_or(depth)
     };
     let range = [depth(nearest), depth(farthest)];
     // Infinite depths are those beyond single precision.
-    (farthest <= nearest && range.iter().all(|depth| depth.is_finite())).then_some(range)
+    Ok((farthest <= nearest && range.iter().all(|depth| depth.is_finite())).then_some(range))
 }

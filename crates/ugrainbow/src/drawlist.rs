@@ -10,7 +10,7 @@ use ugraster::{
 };
 use ugscene::{Face, VertexId};
 
-use crate::clip::{ClipCounts, Vertex, clip_polygon};
+use crate::clip::{Vertex, clip_polygon};
 use crate::packing::Pack;
 use crate::painter::Painter;
 
@@ -22,13 +22,13 @@ const TOGETHER: usize = 4 * BLOCK;
 /// make fewer lists, and every band reads every list.
 const CHUNKS: [usize; 2] = [1 << 10, 1 << 13];
 
-/// Polygons and triangles in drawing order, and how many faces were clipped.
+/// Polygons and triangles in drawing order.
 pub struct DrawList<'a, const N: usize> {
     /// Sorted into bands.
     lists: Vec<PolygonList<N>>,
     corners: Corners<'a, N>,
-    /// How many faces were clipped.
-    pub clip_counts: ClipCounts,
+    /// How many faces are in the picture.
+    pub n_in_picture: usize,
 }
 
 /// Projected vertices, and the values of faces at them.
@@ -125,11 +125,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let parts = parts.into_iter().filter_map(|(_, part)| part);
         let (lists, counts): (Vec<PolygonList<N>>, Vec<_>) = parts.unzip();
         let lists = lists.into_iter().filter(|list| !list.is_empty()).collect();
-        Self {
-            lists,
-            corners,
-            clip_counts: counts.into_iter().fold(ClipCounts::default(), ClipCounts::merge),
-        }
+        Self { lists, corners, n_in_picture: counts.into_iter().sum() }
     }
 
     /// The layer for the rasterizer.
@@ -188,7 +184,7 @@ struct Chunk<'a, const N: usize> {
     /// Row of the current face.
     item: u32,
     list: PolygonList<N>,
-    clip_counts: ClipCounts,
+    n_in_picture: usize,
     parts: Parts,
     /// SIMD instructions of the processor. The result does not depend on them.
     level: Level,
@@ -218,7 +214,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             item: 0,
             // Allocated once, because allocations of several threads wait for each other.
             list: PolygonList::with_capacity(n_faces),
-            clip_counts: ClipCounts::default(),
+            n_in_picture: 0,
             parts: Parts {
                 n: 0,
                 items: [0; TOGETHER],
@@ -238,14 +234,14 @@ impl<'a, const N: usize> Chunk<'a, N> {
         first: usize,
         faces: &[Face],
         is_drawn: impl Fn(&Face) -> bool,
-    ) -> (PolygonList<N>, ClipCounts) {
+    ) -> (PolygonList<N>, usize) {
         for (idx, face) in faces.iter().enumerate().filter(|(_, face)| is_drawn(face)) {
             // The text of a scene is below 4 GiB, so row numbers fit.
             self.add_face((first + idx) as u32, face);
         }
         self.push_parts();
         self.list.sort_into_bands(self.painter.grid);
-        (self.list, self.clip_counts)
+        (self.list, self.n_in_picture)
     }
 
     /// Adds a face, as its triangles if there is something to interpolate between its corners.
@@ -308,8 +304,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
         }
         // The other entries of a block are stale.
         let regular = regular & triangles;
-        self.clip_counts.in_front += regular.count_ones() as usize;
-        self.clip_counts.in_picture += (regular & in_picture).count_ones() as usize;
+        self.n_in_picture += (regular & in_picture).count_ones() as usize;
         let mut left = (drawn & triangles) | (triangles & !regular) | others;
         while left != 0 {
             let idx = left.trailing_zeros() as usize;
@@ -341,16 +336,14 @@ impl<'a, const N: usize> Chunk<'a, N> {
         // samples, it needs no more work.
         if points.clone().all(|point| point.is_finite()) {
             let rows = Bounds::new(points.map(|point| [point.x, point.y])).rows(self.painter.grid);
-            self.clip_counts.in_front += 1;
-            self.clip_counts.in_picture += usize::from(rows.is_some());
+            self.n_in_picture += usize::from(rows.is_some());
             if rows.is_some_and(|rows| !rows.is_empty()) && !self.is_left_out(face) {
                 self.clip_contours(face, contours);
                 self.list.end_polygon(self.painter.grid, self.item);
             }
         } else if self.is_left_out(face) {
             // Culled, so it is not clipped.
-            self.clip_counts.in_front += 1;
-            self.clip_counts.in_picture += 1;
+            self.n_in_picture += 1;
         } else if self.clip_contours(face, contours) {
             self.end_polygon();
         }
@@ -393,8 +386,6 @@ impl<'a, const N: usize> Chunk<'a, N> {
     }
 
     fn end_polygon(&mut self) {
-        self.clip_counts.in_front += 1;
-        self.clip_counts.in_picture +=
-            usize::from(self.list.end_polygon(self.painter.grid, self.item));
+        self.n_in_picture += usize::from(self.list.end_polygon(self.painter.grid, self.item));
     }
 }

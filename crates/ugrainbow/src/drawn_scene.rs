@@ -3,15 +3,12 @@
 use ugpicture::DrawnContent;
 use ugraster::SampleStats;
 
-use crate::clip::ClipCounts;
 use crate::setup::Setup;
 
 /// A scene as drawn, before it is developed.
 pub struct DrawnScene<'a> {
     /// The scene at the resolution at which visibility was decided.
     pub setup: Setup<'a>,
-    /// How many faces and lines were clipped.
-    pub clip_counts: ClipCounts,
     /// Statistics of its samples.
     pub stats: SampleStats,
     /// Light, pixels or areas.

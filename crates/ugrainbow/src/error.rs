@@ -12,12 +12,6 @@ pub enum Error {
     /// The scene has errors.
     #[error(transparent)]
     Scene(#[from] Diagnostics),
-    /// The scene has neither faces nor wires.
-    #[error(
-        "the scene has no faces and no wires, so there is nothing to draw; \
-         check that the program before in the pipe wrote one"
-    )]
-    Empty,
     /// The options of the picture, its camera or its annotations.
     #[error(transparent)]
     Picture(#[from] ugpicture::Error),
@@ -49,6 +43,9 @@ pub enum Error {
         "faces, and the parts into which they cut each other, are too many for vector graphics"
     )]
     FigureFaces,
+    /// Faces of a figure, or before lines, whose edges cross each other too often.
+    #[error("edges of faces cross each other so often that the faces have too many parts")]
+    CrossedFaces,
     /// A vector figure with too many translucent faces one behind another.
     #[error("too many translucent faces overlap for vector graphics")]
     FigureOverlaps,

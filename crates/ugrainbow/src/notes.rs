@@ -51,17 +51,11 @@ fn scene_notes(scene: &Scene, is_exact: bool, notes: &mut Vec<Note>) {
 
 fn why_nothing_is_seen(
     config: &Config,
-    DrawnScene { clip_counts, stats, .. }: &DrawnScene<'_>,
+    DrawnScene { setup, stats, .. }: &DrawnScene<'_>,
     has_lights: bool,
 ) -> Option<Note> {
-    if clip_counts.in_front == 0 {
-        return Some(Note::NothingInFront);
-    }
-    if clip_counts.in_picture == 0 {
-        return Some(Note::NothingInPicture);
-    }
     if stats.covered == 0 {
-        return Some(if config.cull { Note::BackFacing } else { Note::EdgeOn });
+        return Some(ugpicture::why_nothing_is_seen(setup.scene(), Some(&setup.view), config.cull));
     }
     if stats.visible > 0 || stats.out_of_range > 0 {
         return None;

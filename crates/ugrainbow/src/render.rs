@@ -55,7 +55,7 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     config.picture.check()?;
     config.sky.or_stated(scene.sky.as_ref());
     let setup = prepare(scene, &config)?;
-    let layers = RenderLayers::new(&setup, &config);
+    let layers = RenderLayers::new(&setup, &config)?;
     Ok(pixels::light_with_sky(&setup, &layers, &config, &())?.0)
 }
 
@@ -83,7 +83,13 @@ pub fn run_with(
     let keeps_rounds = is_by_rays && !config.picture.annotations.outline;
     let reading = ugparse::Options { keeps_rounds, ..config.reading };
     let parsed = ugparse::read(source, &reading, config.picture.camera.name.as_deref())?;
-    let rendering = draw(&parsed.scene, config, &canvas, provenance, progress)?;
+    let rendering = match draw(&parsed.scene, config, &canvas, provenance, progress) {
+        // A warning says what a mesh without faces has.
+        Err(Error::Picture(error @ ugpicture::Error::Empty(_))) if !parsed.warnings.is_empty() => {
+            return Err(parsed.warnings.with_error(source, error.to_string()).into());
+        }
+        drawn => drawn?,
+    };
     Ok(rendering.pack(warnings(source, parsed), progress))
 }
 
@@ -140,9 +146,8 @@ fn draw_pixels<'a>(
     progress: &dyn Progress,
 ) -> Result<DrawnScene<'a>, Error> {
     let setup = prepare(scene, config)?;
-    let layers = RenderLayers::new(&setup, config).with_progress(progress);
+    let layers = RenderLayers::new(&setup, config)?.with_progress(progress);
     let (content, stats) = pixels::draw(&setup, &layers, config, progress)?;
-    let clip_counts = layers.clip_counts();
     drop(layers);
-    Ok(DrawnScene { setup, clip_counts, stats, content })
+    Ok(DrawnScene { setup, stats, content })
 }

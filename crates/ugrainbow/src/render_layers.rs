@@ -12,9 +12,9 @@ use ugraster::{
 };
 use ugscene::Face;
 
-use crate::clip::ClipCounts;
 use crate::config::{Config, HiddenLines};
 use crate::drawlist::DrawList;
+use crate::error::Error;
 use crate::exact::Faces;
 use crate::lines::{Occluders, Stroke, Visibility, lines, pieces, strips, strokes};
 use crate::packing::{Layout, Pack, pack_hue, pack_light, pack_transparent, pack_white};
@@ -46,7 +46,6 @@ pub struct RenderLayers<'a> {
     pub solid: Solid<'a>,
     clear: ClearLayers<'a>,
     has_faces: bool,
-    clip_counts: ClipCounts,
     progress: &'a dyn Progress,
 }
 
@@ -110,10 +109,11 @@ impl<'a, const N: usize> Layers<'a, N> {
         Self { surfaces, is_drawn: config.has_faces(), planes: planes.clone() }
     }
 
-    fn clip_counts(&self) -> ClipCounts {
+    /// How many of its faces are in the picture.
+    fn n_in_picture(&self) -> usize {
         match &self.surfaces {
-            Surfaces::Rays(faces) => faces.clip_counts,
-            Surfaces::Polygons(list) => list.clip_counts,
+            Surfaces::Rays(faces) => faces.n_in_picture,
+            Surfaces::Polygons(list) => list.n_in_picture,
         }
     }
 
@@ -124,7 +124,7 @@ impl<'a, const N: usize> Layers<'a, N> {
         all: &[Stroke],
         hidden: HiddenLines,
         width: f64,
-    ) -> Vec<Stroke> {
+    ) -> Result<Vec<Stroke>, Error> {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
         // One sample more than half the width.
         let margin = 0.5 * width + 1.0;
@@ -132,13 +132,13 @@ impl<'a, const N: usize> Layers<'a, N> {
             Surfaces::Rays(faces) => {
                 let is_hidden = |[x, y, key]: DepthPoint| faces.hides([x, y], key);
                 let visible = |ends, within| visible_parts(ends, within, is_hidden);
-                strokes(all, &Visibility::new(&visible, size, margin), hidden, width)
+                Ok(strokes(all, &Visibility::new(&visible, size, margin), hidden, width))
             }
             Surfaces::Polygons(list) => {
                 let boxes = all.iter().map(Stroke::bounds);
-                let occluders = Occluders::new(list.outlines(), boxes, size, margin);
+                let occluders = Occluders::new(list.outlines(), boxes, size, margin)?;
                 let visible = |ends, within| occluders.visible(ends, within);
-                strokes(all, &Visibility::new(&visible, size, margin), hidden, width)
+                Ok(strokes(all, &Visibility::new(&visible, size, margin), hidden, width))
             }
         }
     }
@@ -208,7 +208,10 @@ impl TransparentLayer for ClearLayers<'_> {
 
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
-    pub fn new(setup: &'a Setup<'_>, config: &Config) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::CrossedFaces`].
+    pub fn new(setup: &'a Setup<'_>, config: &Config) -> Result<Self, Error> {
         let painter = setup.painter();
         let surface = &painter.appearance.surface;
         let planes =
@@ -227,31 +230,25 @@ impl<'a> RenderLayers<'a> {
             has_translucency.then(|| Layers::new(painter, &planes, config, true, pack_transparent));
         let is_exact = config.exact.is_some();
         let lines = lines(&painter, config.wireframe, is_exact);
-        let (pieces, mut clip_counts) = pieces(&painter, &lines, is_exact);
+        let pieces = pieces(&painter, &lines, is_exact);
         let width = config.line_width * f64::from(painter.grid.samples);
         let strokes = if pieces.is_empty() {
             Vec::new()
         } else {
             let hidden =
                 config.wireframe.map_or(HiddenLines::Omitted, |wireframe| wireframe.hidden);
-            with_layers!(&solid, |layers| layers.shown(&painter, &pieces, hidden, width))
+            with_layers!(&solid, |layers| layers.shown(&painter, &pieces, hidden, width))?
         };
-        if config.has_faces() {
-            clip_counts = clip_counts.merge(with_layers!(&solid, |layers| layers.clip_counts()));
-            clip_counts =
-                faces.iter().fold(clip_counts, |all, faces| all.merge(faces.clip_counts()));
-        }
         let lines = [strips(&painter, &strokes, width)];
         let (grid, shader) = (&setup.grid, &setup.shader);
-        Self {
+        Ok(Self {
             grid,
             shader,
             solid,
             clear: ClearLayers { shader, faces, strokes, lines },
             has_faces: config.has_faces(),
-            clip_counts,
             progress: &(),
-        }
+        })
     }
 
     /// Reports progress while drawing.
@@ -262,11 +259,6 @@ impl<'a> RenderLayers<'a> {
     /// Progress of drawing.
     pub fn progress(&self) -> impl BandProgress + use<'a> {
         Drawing(self.progress)
-    }
-
-    /// How many faces and lines were clipped.
-    pub fn clip_counts(&self) -> ClipCounts {
-        self.clip_counts
     }
 
     /// The transparent layers, if there are any.
@@ -292,8 +284,7 @@ impl<'a> RenderLayers<'a> {
 impl RenderLayers<'_> {
     /// True if a face in the picture is translucent.
     pub fn has_transparent_faces(&self) -> bool {
-        self.has_faces
-            && self.clear.faces.as_ref().is_some_and(|faces| faces.clip_counts().in_picture > 0)
+        self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.n_in_picture() > 0)
     }
 
     /// Passes every polygon to `take`: its item, whether it is translucent, and its contours.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use uglight::{Appearance, ColorShift, Lighting};
 use ugpicture::textures::Textures;
-use ugpicture::{Background, Output, PictureOptions, refuse};
+use ugpicture::{Background, Output, PictureOptions, WithoutFaces, refuse};
 use ugraster::{SampleGrid, TileShape};
 use ugscene::{Scene, ShownEffects, View};
 use ugskybox::SkyError;
@@ -40,7 +40,7 @@ impl<'a> Setup<'a> {
     /// There is nothing to draw, the camera is invalid, or the scene cannot be drawn by rays.
     pub fn new(scene: &'a Scene, config: &Config) -> Result<Self, Error> {
         if scene.faces.is_empty() && scene.wires.is_empty() && !config.sky.is_some() {
-            return Err(Error::Empty);
+            return Err(ugpicture::Error::Empty(WithoutFaces::new(scene)).into());
         }
         if config.exact.is_some() {
             ugscene::require_seen_geometry(scene)?;
@@ -92,7 +92,9 @@ impl<'a> Setup<'a> {
         let light = |color| uglight::RestColor::new(&scene, Some(color)).linear();
         let textures = match config.exact {
             Some(_) => {
-                Textures::new(&scene, light).map_err(|error| Error::Picture(error.into()))?
+                let memory = config.reading.limits.get(ugparse::Limit::Memory);
+                Textures::new(&scene, memory, light)
+                    .map_err(|error| Error::Picture(error.into()))?
             }
             None => Textures::default(),
         };

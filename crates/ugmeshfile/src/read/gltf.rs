@@ -34,7 +34,7 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         n_skipped: 0,
         n_without_positions: 0,
         input,
-        textures: Textures::default(),
+        textures: Textures::new(input.memory),
         ignored: BTreeSet::new(),
     };
     reader.scene()?;
@@ -72,7 +72,7 @@ pub fn picture_within(bytes: &[u8], row: usize) -> Result<Vec<u8>, String> {
         let (json, blob) = split(bytes)?;
         let document = Document::parse(json)?;
         let image = document.row("images", row)?;
-        let input = Input { bytes, read_file: &no_files };
+        let input = Input { bytes, read_file: &no_files, memory: 0 };
         if let Some(uri) = image["uri"].as_str() {
             return load(uri, MAX_TEXTURE_BYTES, &input).map(|(bytes, _)| bytes);
         }

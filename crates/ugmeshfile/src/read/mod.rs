@@ -23,6 +23,8 @@ use crate::{MeshFormat, MeshScene, ReadFile};
 struct Input<'a> {
     bytes: &'a [u8],
     read_file: ReadFile<'a>,
+    /// The most bytes of the pixels and mip levels of all textures.
+    memory: u64,
 }
 
 /// Reads a mesh as a scene with the axes of its file. `read_file` reads files that it names,
@@ -36,11 +38,29 @@ pub fn read(
     read_file: ReadFile<'_>,
     prefix: &str,
 ) -> Result<MeshScene, Problem> {
+    read_within(format, bytes, read_file, prefix, MOST_MEMORY)
+}
+
+/// The most bytes of the pixels and mip levels of all textures that [`read`] decodes.
+const MOST_MEMORY: u64 = 1 << 31;
+
+/// Like [`read`]; textures whose pixels and mip levels would together have more than `memory`
+/// bytes are left out, with a warning.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_within(
+    format: MeshFormat,
+    bytes: &[u8],
+    read_file: ReadFile<'_>,
+    prefix: &str,
+    memory: u64,
+) -> Result<MeshScene, Problem> {
     if let Some(foreign) = foreign::by_content(bytes).filter(|_| !is_binary_stl(bytes)) {
         return Err(Problem::new(format!("it is {foreign}; {}", foreign.remedy())));
     }
     let mut builder = Builder::new(prefix);
-    let input = Input { bytes, read_file };
+    let input = Input { bytes, read_file, memory };
     match format {
         MeshFormat::Ug => return Err(Problem::new("a scene is not a mesh")),
         MeshFormat::Obj => obj::read(&input, &mut builder)?,

@@ -114,7 +114,7 @@ impl<'a> Reader<'a> {
             groups: Vec::new(),
             object: String::new(),
             materials: Materials::default(),
-            textures: Textures::default(),
+            textures: Textures::new(input.memory),
             placements: FxHashMap::default(),
             libraries: BTreeSet::new(),
             material_room: MAX_MATERIAL_BYTES,

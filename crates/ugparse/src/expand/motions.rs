@@ -244,10 +244,10 @@ impl Expander<'_, '_> {
         if scene.stage.seen_geometry().is_some() || !scene.bodies.has_world_lines() {
             return Ok(());
         }
-        let check = |body: BodyId, point: DVec3, span: Span, kind: &str, name: &str| {
+        let check = |body: BodyId, point: DVec3, span: Span, moved: Moved<'_>| {
             let motion = motions.rows.get(&body).map(|&row| motions.statements.spans[row]);
             let possible = scene.bodies.motion(body).check(point);
-            possible.map_err(|error| too_far(span, (kind, name), &error, motion))
+            possible.map_err(|error| too_far(span, moved, &error, motion))
         };
         let mut checked = FxHashSet::default();
         let drawn = scene.drawn().filter(|drawn| scene.bodies.is_on_world_line(drawn.body));
@@ -256,7 +256,9 @@ impl Expander<'_, '_> {
                 if checked.insert((body, corner)) {
                     let vertex = &scene.vertices[corner.index()];
                     let span = self.origins.vertices[corner.index()];
-                    check(body, vertex.position, span, "vertex", scene.names.get(vertex.name))?;
+                    let name = scene.names.get(vertex.name);
+                    let moved = Moved { kind: "vertex", name, radius: None };
+                    check(body, vertex.position, span, moved)?;
                 }
             }
         }
@@ -269,8 +271,11 @@ impl Expander<'_, '_> {
             // A sphere is checked where the axes leave it.
             let ends = DVec3::AXES.into_iter().flat_map(|axis| [axis * radius, -axis * radius]);
             let name = light.name.map_or("", |name| scene.names.get(name));
-            let mut points = std::iter::once(DVec3::ZERO).chain(ends.filter(|_| radius > 0.0));
-            points.try_for_each(|end| check(body, position + end, span, "light", name))?;
+            let moved = Moved { kind: "light", name, radius: None };
+            check(body, position, span, moved)?;
+            let moved = Moved { radius: Some(radius), ..moved };
+            let mut ends = ends.filter(|_| radius > 0.0);
+            ends.try_for_each(|end| check(body, position + end, span, moved))?;
         }
         Ok(())
     }
@@ -306,19 +311,32 @@ fn impossible(span: Span, error: &WorldLineError) -> Diagnostic {
     Diagnostic::error(span, format!("no body can move so: {error}")).label("this motion").help(help)
 }
 
+/// What moves with a body.
+#[derive(Clone, Copy)]
+struct Moved<'a> {
+    /// `vertex` or `light`.
+    kind: &'a str,
+    name: &'a str,
+    /// Of a light whose middle can move so, but whose rim cannot.
+    radius: Option<f64>,
+}
+
 fn too_far(
     point: Span,
-    (kind, name): (&str, &str),
+    Moved { kind, name, radius }: Moved<'_>,
     error: &WorldLineError,
     motion: Option<Span>,
 ) -> Diagnostic {
     let name = if name.is_empty() { String::new() } else { format!(" `{name}`") };
-    let error =
-        Diagnostic::error(point, format!("{kind}{name} cannot move with its body: {error}"))
-            .label(format!("this {kind}"));
+    let radius_words = radius.map_or_else(String::new, |radius| format!(" of radius {radius}"));
+    let message = format!("{kind}{name}{radius_words} cannot move with its body: {error}");
+    let error = Diagnostic::error(point, message).label(format!("this {kind}"));
     let error = match motion {
         Some(motion) => error.other(motion, "moves so"),
         None => error,
     };
-    error.help("bring it nearer to the point `-at`, or let the body spin or accelerate less")
+    error.help(match radius {
+        Some(_) => "give it a smaller radius, or let the body spin or accelerate less",
+        None => "bring it nearer to the point `-at`, or let the body spin or accelerate less",
+    })
 }

@@ -8,7 +8,6 @@ impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
             Self::Text(_)
-            | Self::Empty
             | Self::TooManyPolygons(_)
             | Self::MovingMedium { .. }
             | Self::WorldLine { .. } => "{}",
@@ -47,7 +46,6 @@ impl Words for Error {
             Self::Motion(error) => error.is_usage(),
             Self::Sky(error) => error.is_usage(),
             Self::Text(_)
-            | Self::Empty
             | Self::OutOfRange { .. }
             | Self::TooManyLights { .. }
             | Self::Orthographic

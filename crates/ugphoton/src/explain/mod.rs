@@ -13,7 +13,7 @@ use ugphysics::Velocity;
 use ugpicture::SurfacePoint;
 use ugpicture::explain::{
     ExplainedEvent, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor,
-    SampleContent,
+    SampleContent, sparse_step,
 };
 use ugscene::HueScale;
 use ugskybox::SkyError;
@@ -136,8 +136,8 @@ fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) 
     let one = Config { crop: Some([column, row, 1, 1]), ..config.clone() };
     let light = pixels::light(scenery, &one, &()).0;
     let mean = light.pixels().first().copied().unwrap_or_default();
-    let whole = || pixels::light(scenery, config, &()).0;
-    PixelSteps::new(&config.picture, mean, !scenery.keeps_highlights, whole)
+    let sparse = || pixels::sparse(scenery, config, sparse_step(config.picture.size));
+    PixelSteps::new(&config.picture, mean, !scenery.keeps_highlights, sparse)
 }
 
 /// Computes the explanations of samples.

@@ -111,7 +111,28 @@ fn notes_say_what_is_missing() {
     check(&SCENE.replace("l 1;", ""), "no lights in the scene");
     check(&SCENE.replace("l 1;", "l 0;"), "all that is in the picture is black");
     check(&format!("{SCENE} w (a c);"), "wires are left out");
-    check(&SCENE.replace("-vc 0 0 0", "-vc 0 -1 9"), "nothing is drawn");
+}
+
+/// The causes are those that `ugrainbow` names, with its words.
+#[test]
+fn notes_say_why_nothing_is_seen() {
+    let check = |colour: &str, camera: &str, expected: &str| {
+        let text = format!(
+            "c one {colour}; v a -1 0 -1; v b 1 0 -1; v c 0 0 1; f (a b c) one; l 1; cam {camera};"
+        );
+        let notes = UGPHOTON.notes("-sz 32 24", &text);
+        assert!(notes.contains(&format!("nothing is drawn: {expected}")), "{camera}: {notes}");
+    };
+    check("1", "-ep 0 -6 1 -vc 0 -12 1", "everything is behind the eye");
+    check("1", "-ep 6 0 0 -vc 0 0 0", "everything is seen edge-on");
+    check("1", "-ep 0 -9000 1 -vc 0 0 0", "everything is smaller than a sample");
+    check("1", "-ep 0 -6 1 -vc 9 0 0", "everything is outside the picture");
+    check("1 0 0 1", "-ep 0 -6 1 -vc 0 0 0", "all faces are fully transparent");
+    let far = "sphere 0 0 0 .01; l 1; cam -ep 0 -900 1 -vc 0 0 0;";
+    assert!(UGPHOTON.notes("-sz 32 24", far).contains("smaller than a sample"));
+    let cloud = "v a 0 0 0; v b 1 0 0; v c 0 0 1;";
+    UGPHOTON.refuses("", cloud, 1, "the scene has no faces and no wires, only 3 points");
+    UGPHOTON.refuses("", &format!("{cloud} w (a b);"), 1, "only wires, which rays do not meet");
 }
 
 /// Skies that cannot be one, and options that contradict them.

@@ -186,3 +186,24 @@ fn bad_usage_is_told() {
     check("--explain 2,3 -crop 0 0 9 9", "-crop");
     check("--format json", "add --explain X,Y");
 }
+
+/// The automatic exposure of a large picture is estimated from some pixels, as the text says, and
+/// that of a small one is exact.
+#[test]
+fn exposures_are_estimated_from_few_pixels() {
+    let told = |options: &str| {
+        let text = written(&format!("{options} --explain 20,15 --format json"));
+        let told: Value = serde_json::from_slice(&text).unwrap();
+        let steps = &told["development"];
+        (number(&steps["stops"]), steps["estimated_from"].as_u64())
+    };
+    let options = "-aa 1 -ex auto -tc filmic -sz 320 240";
+    let (estimate, n_pixels) = told(options);
+    assert!(n_pixels.is_some_and(|count| (2000..=4096).contains(&count)), "{n_pixels:?}");
+    let exact = UGPHOTON.notes(options, SCENE);
+    let (_, exact) = exact.split_once("exposure is ").unwrap();
+    let exact: f64 = exact.split_once(" stops").unwrap().0.parse().unwrap();
+    assert!((estimate - exact).abs() < 0.1, "{estimate}, {exact}");
+    assert_eq!(told("-aa 1 -ex auto -tc filmic -sz 60 45").1, None);
+    assert_eq!(told("-aa 1 -ex .5 -tc filmic -sz 320 240"), (0.5, None));
+}

@@ -1,9 +1,10 @@
 //! Errors and notes, with the options that correct what is wrong.
 
-use ugpipe::{Words, remedies};
+use ugpipe::{CommonArgs, Words, remedies};
 use ugscene::CameraError;
 
-use crate::{Error, Note};
+use crate::textures::TextureError;
+use crate::{Error, Note, WithoutFaces};
 
 impl Words for Error {
     fn words(&self) -> String {
@@ -27,9 +28,17 @@ impl Words for Error {
             }
             Self::NoRoom => "{}: give a larger -sz, a smaller -ts, or a shorter -title and -cap",
             Self::Pixel { .. } => "{}; give -sz for a larger one",
+            Self::Texture(TextureError { needed_memory: needed @ Some(_), .. }) => {
+                return format!("{self}{}", CommonArgs::memory_remedy(*needed));
+            }
             Self::Texture(_) => {
                 "{}; save it again as PNG or JPEG, or remove its `c_tex`, and its faces have their plain colour"
             }
+            Self::Empty(WithoutFaces { n_points: 0, .. }) => {
+                "{}; check that the program before in the pipe wrote one"
+            }
+            Self::Empty(WithoutFaces { has_wires: true, .. }) => "{}; ugrainbow draws them",
+            Self::Empty(_) => "{}; make a surface of a cloud of points first",
             Self::Text(_) | Self::Stopped(_) => "{}",
             Self::Camera(error) => return error.words(),
         };
@@ -37,8 +46,14 @@ impl Words for Error {
     }
 
     fn is_usage(&self) -> bool {
-        !matches!(self, Self::Memory(..) | Self::Texture(_) | Self::Camera(_) | Self::Stopped(_))
-            || *self == Self::Camera(CameraError::NoUp)
+        !matches!(
+            self,
+            Self::Empty(_)
+                | Self::Memory(..)
+                | Self::Texture(_)
+                | Self::Camera(_)
+                | Self::Stopped(_)
+        ) || *self == Self::Camera(CameraError::NoUp)
     }
 }
 
@@ -61,11 +76,12 @@ impl Words for Note {
             Self::UpReplaced => "{}; choose one with -ud",
             Self::NothingInFront => remedies::NOTHING_IN_FRONT,
             Self::NothingInPicture => remedies::NOTHING_IN_PICTURE,
-            Self::NothingMet => "{}; try -in, another -vc or a wider -va",
+            Self::AllTransparent => "{}; give their colours a translucency below 1",
             Self::CutByText => "{}: -lp beside leaves more rows, and a wider -va shows all of it",
             Self::NoPanorama => "{}: try another -vc, or a wider -va",
             Self::BackFacing => "{}; leave out -cb, or turn the faces round",
-            Self::EdgeOn => "{}; try another -ep or a narrower -va",
+            Self::EdgeOn => "{}; try another -ep",
+            Self::TooSmall => "{}; try a nearer -ep, a narrower -va or a larger -sz",
             Self::BlackLines => "{}: choose another colour with -lc or -bg",
             Self::OutOfRange { .. } => remedies::OUT_OF_RANGE,
             Self::BlackFaces | Self::BlackPanorama => {

@@ -186,6 +186,9 @@ pub struct PixelSteps {
 pub struct DevelopedPixel {
     /// Exposure in stops.
     pub stops: f64,
+    /// An automatic exposure is estimated from so many pixels; `None` if it is exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub estimated_from: Option<usize>,
     /// Name of the tone curve.
     pub tone_curve: &'static str,
     /// Linear red, green and blue after the exposure.
@@ -291,18 +294,39 @@ impl<S: WriteSample> Explanation<S> {
     }
 }
 
+/// Most pixels from which an explanation estimates an automatic exposure; of a picture that has no
+/// more it is exact.
+const MOST_PIXELS: u32 = 1 << 12;
+
+/// Columns and rows from one pixel to the next from which the automatic exposure of a picture of
+/// this size is estimated.
+pub fn sparse_step([width, height]: [u32; 2]) -> u32 {
+    let n_pixels =
+        |step: &u32| u64::from(width.div_ceil(*step)) * u64::from(height.div_ceil(*step));
+    (1..).find(|step| n_pixels(step) <= u64::from(MOST_PIXELS)).unwrap_or(u32::MAX)
+}
+
 impl PixelSteps {
     /// The steps of a pixel whose samples have this mean. `is_clipped`: they were clipped one by
-    /// one, and are not developed; `whole`: the light of the picture, for automatic exposure.
+    /// one, and are not developed; `sparse`: light of the picture, for automatic exposure; of all
+    /// pixels or, as [`sparse_step`] says, of some.
     pub fn new(
         picture: &PictureOptions,
         mean: [f32; 4],
         is_clipped: bool,
-        whole: impl FnOnce() -> LinearFrame,
+        sparse: impl FnOnce() -> LinearFrame,
     ) -> Self {
         let [red, green, blue, covered] = mean;
         let mean_linear = [red, green, blue];
-        let development = (!is_clipped).then(|| picture.development(whole));
+        let mut estimated_from = None;
+        let sparse = || {
+            let frame = sparse();
+            let [width, height] = picture.size.map(|side| side as usize);
+            let n_pixels = frame.pixels().len();
+            estimated_from = (n_pixels < width * height).then_some(n_pixels);
+            frame
+        };
+        let development = (!is_clipped).then(|| picture.development(sparse));
         let backdrop = Backdrop::new(picture.background, 1);
         let [red, green, blue] =
             development.map_or(mean_linear, |development| backdrop.converter(development)(mean));
@@ -312,6 +336,7 @@ impl PixelSteps {
             let steps = development.steps(mean_linear);
             DevelopedPixel {
                 stops: development.stops,
+                estimated_from,
                 tone_curve: development.tone.name(),
                 exposed: steps.exposed,
                 toned: steps.toned,

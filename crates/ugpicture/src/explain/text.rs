@@ -61,7 +61,11 @@ impl<S: WriteSample> Explanation<S> {
         out.row("mean", format!("{light} linear, {covered} of it covered{by}"));
         if let Some(development) = &steps.development {
             let (stops, tone_curve) = (number(development.stops), development.tone_curve);
-            out.row("exposure", format!("{stops} stops: {}", numbers(&development.exposed)));
+            let estimate = development
+                .estimated_from
+                .map_or_else(String::new, |count| format!(", estimated from {count} pixels"));
+            let exposed = numbers(&development.exposed);
+            out.row("exposure", format!("{stops} stops{estimate}: {exposed}"));
             out.row("tone curve", format!("{tone_curve}: {}", numbers(&development.toned)));
             out.row("gamut", numbers(&development.in_gamut));
         }

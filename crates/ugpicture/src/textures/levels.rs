@@ -37,7 +37,8 @@ struct Level {
 }
 
 impl Levels {
-    pub fn new(size: [u32; 2], pixels: Pixels, is_opaque: bool) -> Self {
+    /// `None` if there is not enough memory.
+    pub fn new(size: [u32; 2], pixels: Pixels, is_opaque: bool) -> Option<Self> {
         let decoded = Box::new(std::array::from_fn(|byte| srgb_decode(byte as f64 / 255.0) as f32));
         let base = Base { size: size.map(|side| side as usize), pixels, is_opaque };
         let mut levels = Self { base, decoded, others: Vec::new() };
@@ -45,13 +46,13 @@ impl Levels {
         while size != [1, 1] {
             let half = size.map(|side| side.div_ceil(2));
             let texels = match levels.others.last() {
-                Some(level) => halved(size, half, |at| level.texels[at]),
-                None => halved(size, half, |at| levels.base_texel(at)),
+                Some(level) => halved(size, half, |at| level.texels[at])?,
+                None => halved(size, half, |at| levels.base_texel(at))?,
             };
             levels.others.push(Level { size: half, texels });
             size = half;
         }
-        levels
+        Some(levels)
     }
 
     /// A texel of the picture: light times alpha, and alpha. Light that is not finite, or below 0,
@@ -179,16 +180,18 @@ fn neighbours((place, side, wrap): (f64, usize, Wrap)) -> (usize, usize, f32) {
     (inside(first) as usize, inside(first + 1) as usize, part)
 }
 
-/// A level of half the size: each texel is the mean of the area that it covers.
+/// A level of half the size: each texel is the mean of the area that it covers. `None` if there is
+/// not enough memory.
 fn halved(
     size: [usize; 2],
     half: [usize; 2],
     texel: impl Fn(usize) -> [f32; 4],
-) -> Box<[[f32; 4]]> {
+) -> Option<Box<[[f32; 4]]>> {
     let [columns, rows] = [0, 1].map(|axis| {
         (0..half[axis]).map(|at| covered(at, half[axis], size[axis])).collect::<Vec<_>>()
     });
-    let mut texels = Vec::with_capacity(half[0] * half[1]);
+    let mut texels = Vec::new();
+    texels.try_reserve_exact(half[0] * half[1]).ok()?;
     for row in &rows {
         for column in &columns {
             let mut sum = [0.0; 4];
@@ -201,7 +204,7 @@ fn halved(
             texels.push(sum);
         }
     }
-    texels.into()
+    Some(texels.into())
 }
 
 /// The texels that texel `at` of `half` covers of `side`, and their shares of its length. There are
@@ -227,7 +230,7 @@ mod tests {
             let light = light(at % size[0], at / size[0]);
             [light, light, light, 1.0]
         };
-        Levels::new(size, Pixels::Light((0..size[0] * size[1]).map(pixel).collect()), true)
+        Levels::new(size, Pixels::Light((0..size[0] * size[1]).map(pixel).collect()), true).unwrap()
     }
 
     fn red(levels: &Levels, [u, v]: [f64; 2], step: f64, wrap: Wrap) -> f64 {
@@ -307,7 +310,7 @@ mod tests {
     #[test]
     fn light_is_weighted_by_alpha() {
         let pixels = vec![[255, 0, 0, 255], [0, 255, 0, 0]];
-        let levels = Levels::new([2, 1], Pixels::Srgb(pixels), false);
+        let levels = Levels::new([2, 1], Pixels::Srgb(pixels), false).unwrap();
         let found = levels.sample(DVec2::new(0.5, 0.5), [DVec2::ZERO; 2], [Wrap::Clamp; 2]);
         assert_eq!(found, [1.0, 0.0, 0.0, 0.5]);
     }

@@ -4,20 +4,18 @@
 mod footprint;
 mod levels;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use thiserror::Error;
-use ugimage::{PictureLimits, read_picture};
+use ugimage::{PictureLimits, check_picture, read_picture};
 use uglight::{Appearance, SurfaceColor};
 use ugscene::{AlphaMode, ColorId, Scene, Texture, VertexId};
 
 pub use footprint::SurfaceElementPlane;
 use levels::Levels;
-
-/// The most bytes of texels of all textures of a scene, with their mip levels.
-const MOST_BYTES: u64 = 1 << 32;
 
 /// A picture on surfaces that cannot be read.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -29,6 +27,8 @@ pub struct TextureError {
     pub color: String,
     /// Why.
     pub reason: String,
+    /// The bytes of the pixels and mip levels of all textures, if these exceed the limit of memory.
+    pub needed_memory: Option<u64>,
 }
 
 /// The textures of a scene, ready for sampling.
@@ -58,42 +58,52 @@ pub struct Texel {
 }
 
 impl Textures {
-    /// Decodes the textures of a scene. `light`: the linear light of a colour, with which a vertex
-    /// tints a texture.
+    /// Decodes the textures of a scene. `memory`: the most bytes of their pixels and mip levels.
+    /// `light`: the linear light of a colour, with which a vertex tints a texture.
     ///
     /// # Errors
-    /// A picture is damaged or too large.
-    pub fn new(scene: &Scene, light: impl Fn(ColorId) -> DVec3) -> Result<Self, TextureError> {
+    /// A picture is damaged, or they are too large.
+    pub fn new(
+        scene: &Scene,
+        memory: u64,
+        light: impl Fn(ColorId) -> DVec3,
+    ) -> Result<Self, TextureError> {
         if scene.textures.is_empty() {
             return Ok(Self::default());
         }
-        // The bytes are missing if the files of the scene were not read.
-        let is_drawn = |texture: &&Texture| {
-            let mut faces = scene.faces.iter();
-            let has =
-                |color| color == texture.color || scene.emitted_by(color) == Some(texture.color);
-            !texture.image.bytes.is_empty() && faces.any(|face| face.color.is_some_and(has))
-        };
-        let drawn: Vec<&Texture> = scene.textures.iter().filter(is_drawn).collect();
-        // Each picture is decoded once. Texels are kept with alpha only where it counts.
-        let key =
-            |texture: &Texture| (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
-        let mut pictures: Vec<&Texture> = Vec::new();
-        for texture in &drawn {
-            if !pictures.iter().any(|known| key(known) == key(texture)) {
-                pictures.push(texture);
+        let mut is_drawn = vec![false; scene.colors.len()];
+        for color in scene.faces.iter().filter_map(|face| face.color) {
+            is_drawn[color.index()] = true;
+            if let Some(emitted) = scene.emitted_by(color) {
+                is_drawn[emitted.index()] = true;
             }
         }
-        let room = MOST_BYTES / pictures.len().max(1) as u64;
+        // The bytes are missing if the files of the scene were not read.
+        let drawn: Vec<&Texture> = scene
+            .textures
+            .iter()
+            .filter(|texture| !texture.image.bytes.is_empty() && is_drawn[texture.color.index()])
+            .collect();
+        // Each picture is decoded once. Texels are kept with alpha only where it counts.
+        let mut pictures: Vec<&Texture> = Vec::new();
+        let mut rows = BTreeMap::new();
+        for texture in &drawn {
+            let key = (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
+            rows.entry(key).or_insert_with(|| {
+                pictures.push(texture);
+                pictures.len() - 1
+            });
+        }
+        check_memory(scene, &pictures, memory)?;
         let levels: Vec<Arc<Levels>> = pictures
             .par_iter()
-            .map(|texture| decoded(scene, texture, room))
+            .map(|texture| decoded(scene, texture, memory))
             .collect::<Result<_, _>>()?;
         let mut of_color = vec![None; scene.colors.len()];
         let mut maps = Vec::new();
         for texture in drawn {
-            let row =
-                pictures.iter().position(|known| key(known) == key(texture)).unwrap_or_default();
+            let key = (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
+            let row = rows[&key];
             of_color[texture.color.index()] = Some(maps.len() as u32);
             maps.push(TextureMap { levels: Arc::clone(&levels[row]), texture: texture.clone() });
         }
@@ -212,15 +222,44 @@ impl TextureMap {
     }
 }
 
-fn decoded(scene: &Scene, texture: &Texture, room: u64) -> Result<Arc<Levels>, TextureError> {
-    let limits = PictureLimits {
-        bytes: room.min(PictureLimits::default().bytes),
-        ..PictureLimits::default()
-    };
-    let picture = read_picture(&texture.image.bytes, &limits).map_err(|error| {
-        let color = scene.names.get(scene.colors[texture.color.index()].name).to_owned();
-        let file = texture.image.file.clone().unwrap_or_else(|| color.clone());
-        TextureError { file, color, reason: error.to_string() }
+/// Refuses pictures whose pixels and mip levels exceed a limit of memory together.
+fn check_memory(scene: &Scene, pictures: &[&Texture], most: u64) -> Result<(), TextureError> {
+    let limits = PictureLimits { bytes: u64::MAX, ..PictureLimits::default() };
+    let mut needed = 0_u64;
+    for texture in pictures {
+        let header = check_picture(&texture.image.bytes, &limits)
+            .map_err(|error| unreadable(scene, texture, error.to_string(), None))?;
+        needed = needed.saturating_add(header.n_bytes_with_levels());
+        if needed > most {
+            let reason = format!(
+                "with mip levels its pixels and those of the textures before it are {needed} \
+                 bytes, more than the limit of memory, {most}"
+            );
+            return Err(unreadable(scene, texture, reason, Some(needed)));
+        }
+    }
+    Ok(())
+}
+
+fn decoded(scene: &Scene, texture: &Texture, memory: u64) -> Result<Arc<Levels>, TextureError> {
+    let limits = PictureLimits { bytes: memory, ..PictureLimits::default() };
+    let picture = read_picture(&texture.image.bytes, &limits)
+        .map_err(|error| unreadable(scene, texture, error.to_string(), error.needed_memory()))?;
+    let is_opaque = texture.alpha == AlphaMode::Opaque;
+    let levels = Levels::new(picture.size, picture.pixels, is_opaque).ok_or_else(|| {
+        let reason = "there is not enough memory for its mip levels".to_owned();
+        unreadable(scene, texture, reason, None)
     })?;
-    Ok(Arc::new(Levels::new(picture.size, picture.pixels, texture.alpha == AlphaMode::Opaque)))
+    Ok(Arc::new(levels))
+}
+
+fn unreadable(
+    scene: &Scene,
+    texture: &Texture,
+    reason: String,
+    needed_memory: Option<u64>,
+) -> TextureError {
+    let color = scene.names.get(scene.colors[texture.color.index()].name).to_owned();
+    let file = texture.image.file.clone().unwrap_or_else(|| color.clone());
+    TextureError { file, color, reason, needed_memory }
 }

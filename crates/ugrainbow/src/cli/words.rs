@@ -7,7 +7,7 @@ use crate::Error;
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
-            Self::Scene(_) | Self::Empty | Self::TooManyPolygons(_) => "{}",
+            Self::Scene(_) | Self::TooManyPolygons(_) => "{}",
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
             Self::Sky(error) => return error.words(),
@@ -19,6 +19,9 @@ impl Words for Error {
                 "{}: give -sp to shift all colours as spectra, or --no-doppler --no-flux to see the shape"
             }
             Self::FigureBackground => "{}: give -bg 1, for paper, in place of -tb",
+            Self::CrossedFaces => {
+                "{}: leave out -vec and lines, or cut these faces into ones that do not cross themselves"
+            }
             Self::FigureFaces | Self::FigureOverlaps => {
                 "{}: leave out -vec, and give a larger -sz for print"
             }

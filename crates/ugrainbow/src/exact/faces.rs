@@ -8,11 +8,10 @@ use uglight::Swatch;
 use ugpicture::outlines::{OutlinedFace, Outlines, PictureRays, RestFaces, RestRay, Tiles};
 use ugpicture::rays::{Intersection, PastRay};
 use ugraster::{Area, FragmentWriter, ShapeTarget, TRANSPARENT_VALUES, Tile};
-use ugscene::{Face, VertexId};
+use ugscene::Face;
 
 use super::look::Look;
 use super::moving::MovingFaces;
-use crate::clip::ClipCounts;
 use crate::packing::Pack;
 use crate::painter::Painter;
 
@@ -26,7 +25,7 @@ pub struct Faces<'a, const N: usize> {
     /// Round faces, and those of bodies that accelerate or turn.
     moving: Option<MovingFaces<'a>>,
     /// How many faces are left after clipping.
-    pub clip_counts: ClipCounts,
+    pub n_in_picture: usize,
 }
 
 impl<'a, const N: usize> Faces<'a, N> {
@@ -65,12 +64,9 @@ impl<'a, const N: usize> Faces<'a, N> {
             )
         };
         let looks: Vec<Look> = outlines.shapes().par_iter().map(look).collect();
-        let drawn = painter.scene.faces.par_iter().filter(|face| is_drawn(face));
-        let in_front = drawn.filter(|face| is_in_front(&painter, face)).count();
         let moving = MovingFaces::new(painter, planes, is_drawn);
-        let in_picture = looks.len() + moving.as_ref().map_or(0, MovingFaces::n_in_picture);
-        let clip_counts = ClipCounts { in_front, in_picture };
-        Self { painter, pack, outlines, looks, moving, clip_counts }
+        let n_in_picture = looks.len() + moving.as_ref().map_or(0, MovingFaces::n_in_picture);
+        Self { painter, pack, outlines, looks, moving, n_in_picture }
     }
 
     /// True if a face is nearer than `key` on the ray through a point of the picture, in samples.
@@ -229,13 +225,6 @@ impl Faces<'_, TRANSPARENT_VALUES> {
         );
         self.draw_moving::<SPECTRAL, _>(writer, |moving, ray| moving.all(ray));
     }
-}
-
-/// True if a corner is seen before the near clipping plane.
-fn is_in_front(painter: &Painter<'_>, face: &Face) -> bool {
-    let depth =
-        |corner: &VertexId| painter.place(painter.scene.vertices[corner.index()].position).z;
-    painter.scene.face_corners(face).iter().any(|corner| depth(corner) >= painter.view.slab.near)
 }
 
 /// Columns and rows of an area.

@@ -100,7 +100,7 @@ pub fn explain(
     let config = &Config { picture: canvas.options().clone(), ..config.clone() };
     let picture = &config.picture;
     let setup = prepare(&parsed.scene, config)?;
-    let layers = RenderLayers::new(&setup, config);
+    let layers = RenderLayers::new(&setup, config)?;
     let backdrop = backdrop(picture);
     let light = |all: &PixelSamples<'_>| mean(&backdrop, all);
     let (samples, mean) = with_rasterizer!(layers, |rasterizer| {

@@ -1,6 +1,9 @@
 //! The visible parts of lines.
 
-use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
+use crate::error::Error;
+use crate::planar::{
+    BoxIndex, Convex, DepthPoint, MOST_CROSSED_PARTS, clipped_to_picture, convex_parts,
+};
 
 /// Decides which parts of a line are visible.
 pub struct Visibility<'a> {
@@ -64,14 +67,17 @@ pub struct Occluders {
 impl Occluders {
     /// The edges of some polygons, given as their contours, that lie near one of the lines whose
     /// boxes are given. `size`: of the picture, in samples.
+    ///
+    /// # Errors
+    /// [`Error::CrossedFaces`].
     pub fn new(
         outlines: impl Iterator<Item = Vec<Vec<DepthPoint>>>,
         lines: impl Iterator<Item = [[f64; 2]; 2]>,
         size: [u32; 2],
         margin: f64,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         let lines = BoxIndex::new(lines, size);
-        let mut all = Vec::new();
+        let (mut all, mut room) = (Vec::new(), MOST_CROSSED_PARTS);
         for contours in outlines {
             let places = || contours.iter().flatten();
             let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
@@ -84,10 +90,10 @@ impl Occluders {
                 contours.into_iter().map(|contour| clipped_to_picture(contour, size, margin));
             let outline: Vec<Vec<DepthPoint>> =
                 outline.filter(|contour| contour.len() > 2).collect();
-            all.extend(convex_parts(&outline));
+            all.extend(convex_parts(&outline, &mut room).ok_or(Error::CrossedFaces)?);
         }
         let index = BoxIndex::new(all.iter().map(|part| [part.low, part.high]), size);
-        Self { parts: all, index }
+        Ok(Self { parts: all, index })
     }
 
     /// The parts of the segment from `a` to `b`, within `[start, end]`, that no face hides.

@@ -20,7 +20,7 @@ use ugphysics::{Hsv, srgb_decode};
 use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
 use ugscene::{BodyId, CameraPoint, VertexId, Wire};
 
-use crate::clip::{ClipCounts, Vertex, clip_segment};
+use crate::clip::{Vertex, clip_segment};
 use crate::config::{HiddenLines, Wireframe};
 use crate::packing::pack_transparent;
 use crate::painter::Painter;
@@ -175,9 +175,9 @@ fn plain(color: Hsv) -> Swatch {
     }
 }
 
-/// Straight pieces of lines in the picture, hidden or not, and how many were clipped.
+/// Straight pieces of lines in the picture, hidden or not.
 /// `is_exact`: lines of moving bodies are seen as curves.
-pub fn pieces(painter: &Painter<'_>, lines: &[Line], is_exact: bool) -> (Vec<Stroke>, ClipCounts) {
+pub fn pieces(painter: &Painter<'_>, lines: &[Line], is_exact: bool) -> Vec<Stroke> {
     let straight = |line: &Line| {
         let seen = |end: VertexId| painter.scene.vertices[end.index()].position - painter.view.eye;
         [0, 1].map(|end| Joint { seen: seen(line.ends[end]), color: line.colors[end] }).to_vec()
@@ -197,14 +197,7 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], is_exact: bool) -> (Vec<Str
         piece.from = if piece.continues { from } else { 0.0 };
         from = piece.from + piece.length();
     }
-    let is_in_picture = |piece: &&Stroke| {
-        let size = [painter.grid.sample_columns(), painter.grid.sample_rows()].map(f64::from);
-        let [low, high] = piece.bounds();
-        (0..2).all(|axis| high[axis] > 0.0 && low[axis] < size[axis])
-    };
-    let in_picture = pieces.iter().filter(is_in_picture).count();
-    let clip_counts = ClipCounts { in_front: pieces.len(), in_picture };
-    (pieces, clip_counts)
+    pieces
 }
 
 /// The piece between two joints, clipped to the slab.

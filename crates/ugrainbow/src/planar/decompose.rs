@@ -6,6 +6,9 @@ use ugpicture::DepthPoint;
 
 use super::convex::{Convex, clip, doubled_area, sides};
 
+/// Most parts, beyond those for each corner, of all faces whose edges cross each other: about 40 MB.
+pub const MOST_CROSSED_PARTS: usize = 1 << 17;
+
 /// Clips a contour to the picture and a `margin` around it.
 pub fn clipped_to_picture(
     mut contour: Vec<DepthPoint>,
@@ -24,14 +27,20 @@ pub fn clipped_to_picture(
     contour
 }
 
-/// Decomposes a polygon into convex parts, each of them planar in depth.
-pub fn convex_parts(outline: &[Vec<DepthPoint>]) -> Vec<Convex> {
+/// Decomposes a polygon into convex parts, each of them planar in depth. Of a polygon whose edges
+/// cross each other there may be as many as the square of the number of its corners: `room` is how
+/// many more than three for each corner there may be, from which these are taken. `None` if there
+/// is not enough.
+pub fn convex_parts(outline: &[Vec<DepthPoint>], room: &mut usize) -> Option<Vec<Convex>> {
     if let [contour] = outline
         && is_convex(contour)
     {
-        return flat_parts(contour.clone());
+        return Some(flat_parts(contour.clone()));
     }
-    trapezoids(outline).into_iter().flat_map(flat_parts).collect()
+    let n_corners: usize = outline.iter().map(Vec::len).sum();
+    let trapezoids = trapezoids(outline, *room + 3 * n_corners)?;
+    *room -= trapezoids.len().saturating_sub(3 * n_corners);
+    Some(trapezoids.into_iter().flat_map(flat_parts).collect())
 }
 
 /// A convex polygon itself if it is planar in depth, otherwise a fan of triangles.
@@ -64,8 +73,9 @@ fn is_convex(contour: &[DepthPoint]) -> bool {
 }
 
 /// Cuts a polygon along the rows of its corners into trapezoids, by the even-odd rule. One between
-/// the same two edges in several rows is not cut, so there are about as many as corners.
-fn trapezoids(outline: &[Vec<DepthPoint>]) -> Vec<Vec<DepthPoint>> {
+/// the same two edges in several rows is not cut, so there are about as many as corners, unless
+/// edges cross each other. `None` if there would be more than `most`.
+fn trapezoids(outline: &[Vec<DepthPoint>], most: usize) -> Option<Vec<Vec<DepthPoint>>> {
     let mut rows: Vec<f64> = outline.iter().flatten().map(|place| place[1]).collect();
     rows.sort_by(f64::total_cmp);
     rows.dedup();
@@ -79,8 +89,8 @@ fn trapezoids(outline: &[Vec<DepthPoint>]) -> Vec<Vec<DepthPoint>> {
         [a[0] + (b[0] - a[0]) * part, y, a[2] + (b[2] - a[2]) * part]
     };
     let mut trapezoids = Vec::new();
-    let mut close = |[left, right]: [usize; 2], top: f64, bottom: f64| {
-        trapezoids.push(vec![at(left, top), at(right, top), at(right, bottom), at(left, bottom)]);
+    let closed = |[left, right]: [usize; 2], top: f64, bottom: f64| {
+        vec![at(left, top), at(right, top), at(right, bottom), at(left, bottom)]
     };
     let (mut crossed, mut n_begun) = (Vec::new(), 0);
     // The row at which the trapezoid between two edges begins.
@@ -100,15 +110,45 @@ fn trapezoids(outline: &[Vec<DepthPoint>]) -> Vec<Vec<DepthPoint>> {
         open.retain(|&edges, &mut begin| {
             let stays = between.contains_key(&edges);
             if !stays {
-                close(edges, begin, top);
+                trapezoids.push(closed(edges, begin, top));
             }
             stays
         });
+        if trapezoids.len() > most {
+            return None;
+        }
         for (edges, top) in between {
             open.entry(edges).or_insert(top);
         }
     }
     let end = rows.last().copied().unwrap_or(0.0);
-    open.into_iter().for_each(|(edges, begin)| close(edges, begin, end));
-    trapezoids
+    trapezoids.extend(open.into_iter().map(|(edges, begin)| closed(edges, begin, end)));
+    (trapezoids.len() <= most).then_some(trapezoids)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The parts of a face whose edges cross each other grow with the square of its corners, and
+    /// are bounded by the room; other faces need none.
+    #[test]
+    fn crossing_edges_have_a_limit() {
+        let corner = |at: usize| {
+            let at = (at * at) as f64;
+            [100.0 * libm::cos(1.7 * at), 100.0 * libm::sin(2.3 * at), 1.0]
+        };
+        let crossed = [(0..400).map(corner).collect::<Vec<_>>()];
+        let mut room = 1 << 17;
+        let n_parts = convex_parts(&crossed, &mut room).unwrap().len();
+        assert!(n_parts > 4000, "{n_parts}");
+        let taken = (1 << 17) - room;
+        assert!(taken > 0);
+        assert!(convex_parts(&crossed, &mut (taken - 1)).is_none());
+        assert!(convex_parts(&crossed, &mut { taken }).is_some());
+        // A comb does not cross itself.
+        let tooth = |at: usize| [at as f64, if at % 2 == 0 { 0.0 } else { 50.0 + at as f64 }, 1.0];
+        let comb = [(0..400).map(tooth).chain([[399.0, -9.0, 1.0], [0.0, -9.0, 1.0]]).collect()];
+        assert!(convex_parts(&comb, &mut 0).is_some());
+    }
 }

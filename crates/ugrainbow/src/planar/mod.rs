@@ -11,5 +11,5 @@ pub use box_index::BoxIndex;
 pub use clip::clip_edges;
 pub use convex::{Convex, DepthOrder, doubled_area, sides};
 pub use cover::is_covered;
-pub use decompose::{clipped_to_picture, convex_parts};
+pub use decompose::{MOST_CROSSED_PARTS, clipped_to_picture, convex_parts};
 pub use ugpicture::DepthPoint;

@@ -41,7 +41,7 @@ use crate::drawn_scene::DrawnScene;
 use crate::error::Error;
 use crate::lines::Stroke;
 use crate::pixels::{self, backdrop};
-use crate::planar::BoxIndex;
+use crate::planar::{BoxIndex, MOST_CROSSED_PARTS};
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
@@ -68,14 +68,14 @@ pub fn draw<'a>(
     let mut scale = scale(size);
     let mut fine = at_scale(config, scale);
     let mut setup = prepare(scene, &fine)?;
-    let mut layers = RenderLayers::new(&setup, &fine);
+    let mut layers = RenderLayers::new(&setup, &fine)?;
     let coarser = coarser(scale, seen::n_fragments(&layers, size.map(|side| side * scale)));
     if coarser < scale {
         scale = coarser;
         drop(layers);
         fine = at_scale(config, scale);
         setup = prepare(scene, &fine)?;
-        layers = RenderLayers::new(&setup, &fine);
+        layers = RenderLayers::new(&setup, &fine)?;
     }
     let layers = layers.with_progress(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
@@ -83,7 +83,7 @@ pub fn draw<'a>(
     }
     let seen = seen::faces(&setup, &layers);
     let development = if setup.keeps_highlights { Some(development(scene, config)?) } else { None };
-    let (clip_counts, stats) = (layers.clip_counts(), seen.stats);
+    let stats = seen.stats;
     let job = FigureJob { layers: &layers, setup: &setup, config, scale, seen: &seen };
     let figure = match format {
         Format::Svg => VectorFigure::Gradients(job.figure(development)?),
@@ -91,7 +91,7 @@ pub fn draw<'a>(
     };
     drop(layers);
     let content = DrawnContent::Figure(figure, development);
-    Ok(DrawnScene { setup, clip_counts, stats, content })
+    Ok(DrawnScene { setup, stats, content })
 }
 
 /// The options for one sample a pixel, in a picture that is so many times larger.
@@ -118,7 +118,7 @@ fn development(scene: &Scene, config: &Config) -> Result<Development, Error> {
     let stops = match config.picture.exposure {
         Some(Exposure::Auto) => {
             let setup = prepare(scene, config)?;
-            let layers = RenderLayers::new(&setup, config);
+            let layers = RenderLayers::new(&setup, config)?;
             return Ok(config.picture.development(|| pixels::light(&setup, &layers, config).0));
         }
         Some(Exposure::Stops(stops)) => stops,
@@ -142,7 +142,7 @@ impl FigureJob<'_> {
         let size = config.picture.size;
         let backdrop = backdrop(&config.picture);
         let ground = backdrop.light();
-        let faces = patches(layers, setup, size, f64::from(scale), &seen.is_near);
+        let faces = patches(layers, setup, size, f64::from(scale), &seen.is_near)?;
         let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
         let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
         let colors = FigureColors {
@@ -202,28 +202,35 @@ fn scale([width, height]: [u32; 2]) -> u32 {
 }
 
 /// The patches of visible faces.
+///
+/// # Errors
+/// [`Error::CrossedFaces`]: faces cross themselves too often.
 fn patches(
     layers: &RenderLayers<'_>,
     setup: &Setup<'_>,
     size: [u32; 2],
     scale: f64,
     is_shown: &[bool],
-) -> Vec<Patch> {
-    let mut faces = Vec::new();
+) -> Result<Vec<Patch>, Error> {
+    let (mut faces, mut room, mut outcome) = (Vec::new(), MOST_CROSSED_PARTS, Ok(()));
     layers.for_each_polygon(|item, is_transparent, mut contours| {
-        if !is_shown[item as usize] {
+        if !is_shown[item as usize] || outcome.is_err() {
             return;
         }
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        let mut patch = Patch::new(item, is_transparent, contours, size, setup.view.is_perspective);
-        if let (Some(patch), Some(&plane)) = (&mut patch, layers.planes().get(item as usize)) {
-            patch.plane = plane;
+        let is_perspective = setup.view.is_perspective;
+        match Patch::new(item, is_transparent, contours, size, is_perspective, &mut room) {
+            Ok(None) => {}
+            Ok(Some(mut patch)) => {
+                patch.plane = layers.planes().get(item as usize).copied().unwrap_or(patch.plane);
+                faces.push(patch);
+            }
+            Err(error) => outcome = Err(error),
         }
-        faces.extend(patch);
     });
-    faces
+    outcome.map(|()| faces)
 }
 
 #[cfg(test)]
@@ -258,7 +265,8 @@ mod tests {
             };
             let contour =
                 vec![corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 0.1), corner(-1.0, 0.1)];
-            patches.extend(Patch::new(item, false, vec![contour], [100, 100], false));
+            patches
+                .extend(Patch::new(item, false, vec![contour], [100, 100], false, &mut 0).unwrap());
         }
         let index = BoxIndex::new(patches.iter().map(Patch::bounds), [100, 100]);
         let work = Work::new(1 << 20);

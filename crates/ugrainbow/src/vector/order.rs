@@ -231,7 +231,7 @@ mod tests {
         let patch = |item| {
             let corner = |x, y| ugraster::Corner { x, y, key: 1.0, values: [0.0; 8] };
             let contour = vec![corner(0.0, 0.0), corner(4.0, 0.0), corner(4.0, 4.0)];
-            Patch::new(item, false, vec![contour], [4, 4], false).unwrap()
+            Patch::new(item, false, vec![contour], [4, 4], false, &mut 0).unwrap().unwrap()
         };
         let [behind, on, before] = divide(&[patch(0), patch(1)], vec![(0, flat), (1, steep)]);
         assert_eq!((behind[0].0, on[0].0, before[0].0), (1, 0, 1));

@@ -2,6 +2,7 @@
 
 use ugraster::{Corner, TRANSPARENT_VALUES};
 
+use crate::error::Error;
 use crate::lines::between;
 use crate::planar::{Convex, DepthPoint, clipped_to_picture, convex_parts, doubled_area, sides};
 
@@ -34,21 +35,26 @@ pub struct Interpolants {
 }
 
 impl Patch {
-    /// `corners` are in pixels. `None` if no part of the polygon is in the picture.
+    /// `corners` are in pixels. `None` if no part of the polygon is in the picture. `room`: see
+    /// [`convex_parts`].
+    ///
+    /// # Errors
+    /// [`Error::CrossedFaces`]: there is not enough room.
     pub fn new(
         item: u32,
         is_transparent: bool,
         contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
-    ) -> Option<Self> {
+        room: &mut usize,
+    ) -> Result<Option<Self>, Error> {
         let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
         let outline = contours
             .iter()
             .map(|contour| clipped_to_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline = oriented(outline.filter(|contour| contour.len() > 2).collect());
-        let parts = convex_parts(&outline);
-        (!parts.is_empty()).then_some(Self {
+        let parts = convex_parts(&outline, room).ok_or(Error::CrossedFaces)?;
+        Ok((!parts.is_empty()).then_some(Self {
             item,
             is_transparent,
             plane: 0,
@@ -56,7 +62,7 @@ impl Patch {
             outline,
             parts,
             is_perspective,
-        })
+        }))
     }
 
     /// The interpolated values at a point; outside the polygon, those of the nearest point in the

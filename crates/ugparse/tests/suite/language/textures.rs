@@ -169,3 +169,46 @@ fn png_crc(bytes: &[u8]) -> u32 {
     };
     !bytes.iter().fold(!0, step)
 }
+
+/// Pictures are checked by their headers as renderers read them, and all together against the
+/// limit of memory, before any is decoded.
+#[test]
+fn pictures_that_renderers_refuse_are_refused() {
+    let check = |files: &[(&str, &[u8])], limit: u64, expected: &str| {
+        let text = "c a 1; c_tex a a.pfm; c b 1; c_tex b b.pfm;";
+        let options = Options {
+            limits: Options::default().limits.with(ugparse::Limit::Memory, limit),
+            ..Options::default()
+        };
+        let load = |request: &ugparse::Request<'_>| {
+            let found = files.iter().find(|(name, _)| Path::new(name) == request.path);
+            Ok(found.expect("the file of a row").1.to_vec())
+        };
+        let found = ugparse::include(Source::new("s.ug", text), &options, load);
+        match found {
+            Ok(_) => assert_eq!(expected, ""),
+            Err(found) => {
+                let found = found.render(false);
+                assert!(!expected.is_empty() && found.contains(expected), "{found}");
+            }
+        }
+    };
+    let of_size = |side: usize| {
+        [format!("PF\n{side} {side}\n-1\n").as_bytes(), &vec![0; 12 * side * side]].concat()
+    };
+    // 4 x 4 pixels of light and two smaller levels: 16 (16 + 4 + 1) bytes, and again.
+    let picture = of_size(4);
+    let both: [(&str, &[u8]); 2] = [("a.pfm", &picture), ("b.pfm", &picture)];
+    check(&both, 100_000, "");
+    check(&both, 2 * 336 + 208, "");
+    check(
+        &both,
+        2 * 336 - 1,
+        "`b.pfm` and of all pictures before it are 672 bytes with mip levels",
+    );
+    let with = |bytes: &[u8], expected: &str| check(&[("a.pfm", bytes)], 1 << 30, expected);
+    with(b"PF\n60000 60000\n-1.0\n", "60000 x 60000 pixels exceed the limit");
+    with(b"PF\n6 6\n-1.0\n", "the file is truncated, or its header is wrong");
+    with(b"#?RADIANCE\n\n-Y 99 +X 99\n\0", "the file is truncated, or its header is wrong");
+    with(b"v/1\x01", "not a readable EXR file");
+}

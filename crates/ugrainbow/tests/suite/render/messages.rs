@@ -44,11 +44,15 @@ fn scenes_without_a_picture_are_errors() {
     fn check(text: &str, message: &str) {
         assert_eq!(render(&scene(text), &plain(4, 4)).unwrap_err().words(), message);
     }
-    assert!(matches!(render(&scene("v a 0 0 0; l 1;"), &plain(4, 4)), Err(Error::Empty)));
+    check(
+        "v a 0 0 0; v b 1 0 0; l 1;",
+        "nothing is drawn: the scene has no faces and no wires, only 2 points; make a surface of a cloud of \
+         points first",
+    );
     check(
         "",
-        "the scene has no faces and no wires, so there is nothing to draw; check that the program before in \
-         the pipe wrote one",
+        "nothing is drawn: the scene has no faces and no wires; check that the program before in the pipe \
+         wrote one",
     );
     for (camera, message) in [
         (
@@ -94,17 +98,21 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     for (camera, note) in [
         (
             "-ep 0 0 20 -vc 0 0 30 -ud 0 1 0",
-            "everything is behind the eye or outside the clipping distances; try `uglorentz --keep-in-view`, \
-             another -ep or -vc",
+            "everything is behind the eye or outside the clipping distances; try --keep-in-view \
+             (uglorentz, ugphoton), another -ep or -vc",
         ),
         (
             "-ep 0 0 20 -vc 90 0 0",
-            "everything is outside the picture, where fast bodies often are; try `uglorentz --keep-in-view`, \
-             another -vc or a wider -va",
+            "everything is outside the picture, where fast bodies often are; try --keep-in-view \
+             (uglorentz, ugphoton), another -vc or a wider -va",
         ),
         (
             "-ep 30 0 0 -vc 0 0 0",
-            "everything is seen edge-on or smaller than a sample; try another -ep or a narrower -va",
+            "everything is seen edge-on, thinner than a sample; try another -ep",
+        ),
+        (
+            "-ep 0 0 90000 -vc 0 0 0 -ud 0 1 0",
+            "everything is smaller than a sample; try a nearer -ep, a narrower -va or a larger -sz",
         ),
     ] {
         check(
@@ -113,6 +121,14 @@ fn pictures_in_which_nothing_is_seen_say_why() {
             &[&format!("nothing is drawn: {note}")],
         );
     }
+    let clear = square.replace("c green 1 120;", "c green 1 120 1 1;");
+    let clear_note = "nothing is drawn: all faces are fully transparent; give their colours a translucency \
+                      below 1";
+    check(&format!("{clear}; cam -ep 1 0 20;"), &config, &[clear_note]);
+    let culled = Config { cull: true, ..config.clone() };
+    let behind =
+        "nothing is drawn: everything is seen from behind; leave out -cb, or turn the faces round";
+    check(&format!("{square}; cam -ep 1 0 -20 -vc 0 0 0;"), &culled, &[behind]);
     let wavelengths = Config { hue_scale: HueScale::Wavelengths, ..config.clone() };
     let out_of_sight = |what: &str| {
         format!(
