@@ -117,15 +117,18 @@ struct Text {
     n_replaced: usize,
     /// Number of bytes copied or replaced so far.
     n_done: usize,
+    /// It has a camera of its own.
+    has_camera: bool,
 }
 
 impl Text {
     fn new(source: Source, options: &Options) -> Result<Self, Diagnostics> {
         let mut findings = Vec::new();
         let document = reader::read(&source.text, options, &mut findings);
+        let has_camera = document.scopes.iter().any(|scope| !scope.cameras.rows.is_empty());
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
-        Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0 })
+        Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0, has_camera })
     }
 }
 
@@ -229,20 +232,23 @@ impl Inclusion<'_> {
     /// The picture that a file is, or that is in a mesh.
     #[cfg(feature = "cli")]
     fn picture(
-        &self,
+        &mut self,
         statement: RequestStatement,
         file: &Arc<[u8]>,
         path: &Path,
     ) -> Result<Arc<[u8]>, Diagnostics> {
         let picture = match statement.row {
-            Some(row) => ugmeshfile::picture_within(file, row as usize).map(Arc::from),
+            Some(row) => {
+                let mesh = path.to_string_lossy();
+                crate::mesh::picture(&mesh, file, row as usize, &mut *self.loader).map(Arc::from)
+            }
             None => Ok(Arc::clone(file)),
         };
         let checked =
             picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
         checked.map_err(|problem| {
             let help = match statement.row {
-                Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
+                Some(_) => "give the number of a picture (PNG or JPEG) of a glTF file, from 0",
                 None => "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels",
             };
             let message = format!("cannot read `{}`: {problem}", path.display());
@@ -252,7 +258,7 @@ impl Inclusion<'_> {
 
     #[cfg(not(feature = "cli"))]
     fn picture(
-        &self,
+        &mut self,
         _: RequestStatement,
         file: &Arc<[u8]>,
         _: &Path,
@@ -338,6 +344,10 @@ impl Inclusion<'_> {
         // Errors would quote lines.
         let mesh = read.ok().and_then(|file| (*file.mesh?).map(|mesh| mesh.scene));
         let mut scene = mesh.ok_or_else(|| self.not_a_scene(statement))?;
+        if self.open.iter().any(|(_, text)| text.has_camera) {
+            // The view is that of the scene, in whatever order the cameras are.
+            scene.cameras.clear();
+        }
         // Statements name files relative to their own.
         let folder = Path::new(&name).parent().unwrap_or(Path::new(""));
         for file in scene.textures.iter_mut().filter_map(|texture| texture.image.file.as_mut()) {

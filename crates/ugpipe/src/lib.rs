@@ -98,6 +98,7 @@
 
 #[cfg(feature = "cli")]
 mod cli;
+mod other_case;
 mod progress;
 pub mod remedies;
 mod side;
@@ -105,6 +106,7 @@ mod text;
 
 #[cfg(feature = "cli")]
 pub use cli::*;
+pub use other_case::OtherCase;
 pub use progress::{Progress, Stopped};
 pub use side::{PIXELS_PER_INCH, Side};
 pub use text::{is_printable, message, printable};

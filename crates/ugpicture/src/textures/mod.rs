@@ -14,7 +14,7 @@ use uglight::{Appearance, SurfaceColor};
 use ugscene::{AlphaMode, ColorId, Scene, Texture, VertexId};
 
 pub use footprint::SurfaceElementPlane;
-use levels::Levels;
+use levels::{Filter, Levels};
 
 /// The most bytes of texels of all textures of a scene, with their mip levels.
 const MOST_BYTES: u64 = 1 << 32;
@@ -193,8 +193,9 @@ impl TextureMap {
         let (along, beside) = (b - a, c - a);
         let uv = a + second * along + third * beside;
         let steps = steps().map(|[second, third]| second * along + third * beside);
-        let Texture { wrap, factor, alpha, .. } = self.texture;
-        let [red, green, blue, opacity] = self.levels.sample(uv, steps, wrap);
+        let Texture { wrap, factor, alpha, is_nearest, .. } = self.texture;
+        let filter = Filter { wrap, is_nearest };
+        let [red, green, blue, opacity] = self.levels.sample(uv, steps, filter);
         let [f_red, f_green, f_blue, f_alpha] = factor.map(f64::from);
         let mut light = DVec3::new(red * f_red, green * f_green, blue * f_blue);
         let tint =
