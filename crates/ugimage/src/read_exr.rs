@@ -30,10 +30,8 @@ pub(crate) fn read(
     notes: &mut Vec<String>,
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     let broken = |error: &dyn std::fmt::Display| unreadable("EXR", error);
-    let (header, channels, size) = part(file, limits)?;
-    if let Some(note) = &channels.note {
-        notes.push(note.clone());
-    }
+    let Part { header, channels, size, notes: told } = part(file, limits)?;
+    notes.extend(told);
     let (data_size, mut pixels) = channels.read(file).map_err(|error| broken(&error))?;
     // Colours of EXR files are multiplied by alpha.
     for [red, green, blue, alpha] in &mut pixels {
@@ -79,11 +77,20 @@ pub(crate) fn read(
 /// # Errors
 /// As [`read`], except for corrupt pixels.
 pub(crate) fn check(file: &[u8], limits: &PictureLimits) -> Result<[u32; 2], ReadError> {
-    Ok(part(file, limits)?.2)
+    Ok(part(file, limits)?.size)
 }
 
-/// The part of a file that is read: its header, its channels and the size of its display window.
-fn part(file: &[u8], limits: &PictureLimits) -> Result<(Header, Channels, [u32; 2]), ReadError> {
+/// The part of a file that is read.
+struct Part {
+    header: Header,
+    channels: Channels,
+    /// Of the display window.
+    size: [u32; 2],
+    /// What is left out.
+    notes: Vec<String>,
+}
+
+fn part(file: &[u8], limits: &PictureLimits) -> Result<Part, ReadError> {
     /// Of headers, as the decoder of pixels checks them.
     const PEDANTIC: bool = true;
     let broken = |error: &dyn std::fmt::Display| unreadable("EXR", error);
@@ -98,11 +105,13 @@ fn part(file: &[u8], limits: &PictureLimits) -> Result<(Header, Channels, [u32; 
     let Some((header, channels)) =
         colored.or_else(|| flat().find_map(|header| Some((header, Channels::grey_of(header)?))))
     else {
-        return Err(broken(&"it has no channels of colours"));
+        return Err(unreadable("EXR", &no_colors(&headers)));
     };
+    let mut notes = Vec::from_iter(channels.note.clone());
+    notes.extend(other_pictures(&headers, header, &channels));
     let display = header.shared_attributes.display_window;
     let size = limits.check([display.size.width(), display.size.height()], N_BYTES_OF_LIGHT)?;
-    Ok((header.clone(), channels, size))
+    Ok(Part { header: header.clone(), channels, size, notes })
 }
 
 /// A picture of radiances at wavelengths.
@@ -194,25 +203,91 @@ struct Channels {
     note: Option<String>,
 }
 
+/// Beginnings of the names of channels with colours: those that end with these letters.
+fn prefixes<'n>(names: &'n [String], letters: [&str; 3]) -> Vec<&'n str> {
+    let has = |prefix: &str, letter: &str| {
+        names.iter().any(|known| known.strip_suffix(letter) == Some(prefix))
+    };
+    let all = names.iter().filter_map(|name| name.strip_suffix(letters[0]));
+    all.filter(|prefix| letters.iter().all(|letter| has(prefix, letter))).collect()
+}
+
+/// Why no part of a file is read, with the names of its channels.
+fn no_colors(headers: &[Header]) -> String {
+    /// The most names.
+    const MOST: usize = 12;
+    if headers.iter().all(|header| header.deep) {
+        return "it has deep pixels; flatten them".to_owned();
+    }
+    let names: Vec<String> = headers.iter().flat_map(names).collect();
+    let more = if names.len() > MOST { ", …" } else { "" };
+    let shown: Vec<String> = names.iter().take(MOST).map(|name| format!("`{name}`")).collect();
+    format!(
+        "it has no channels of colours (`R`, `G`, `B`, or `Y`): its channels are {}{more}",
+        shown.join(", ")
+    )
+}
+
+/// The note on pictures of a file that are not read, such as the one for the other eye. `read`: the
+/// part that is read.
+fn other_pictures(headers: &[Header], read: &Header, channels: &Channels) -> Option<String> {
+    let text = |text: &Option<exr::meta::attribute::Text>| text.as_ref().map(ToString::to_string);
+    let name_of = |header: &Header| {
+        let attributes = &header.own_attributes;
+        text(&attributes.view_name).or_else(|| text(&attributes.layer_name)).unwrap_or_default()
+    };
+    let is_picture = |header: &&Header| !header.deep && !prefixes(&names(header), RGB).is_empty();
+    let others: Vec<&Header> =
+        headers.iter().filter(|header| !std::ptr::eq(*header, read)).filter(is_picture).collect();
+    let quoted = |names: Vec<String>| {
+        names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    };
+    if !others.is_empty() {
+        let names = others.into_iter().map(name_of).collect();
+        let read = name_of(read);
+        return Some(format!("of the parts of the file `{read}` is read, not {}", quoted(names)));
+    }
+    // Several views in one part: that of the other eye has its name before its channels.
+    let names = names(read);
+    let is_view = |prefix: &str| {
+        let mut words = prefix.split('.');
+        words.any(|word| word.eq_ignore_ascii_case("left") || word.eq_ignore_ascii_case("right"))
+    };
+    let mine = channels.names[0].strip_suffix('R');
+    let views = prefixes(&names, RGB).into_iter().filter(|prefix| is_view(prefix));
+    let views: Vec<String> = views
+        .filter(|prefix| Some(*prefix) != mine)
+        .map(|prefix| prefix.trim_end_matches('.').to_owned())
+        .collect();
+    (!views.is_empty())
+        .then(|| format!("the picture for another eye is not read: {}", quoted(views)))
+}
+
+/// The last letters of channels with colours.
+const RGB: [&str; 3] = ["R", "G", "B"];
+
 impl Channels {
-    /// `R`, `G` and `B`; or those of a layer in the names, as Blender writes them.
+    /// `R`, `G` and `B`; or those of a layer in the names, as Blender writes them; or `r`, `g` and
+    /// `b`, as a few programs do.
     fn colors_of(header: &Header) -> Option<Self> {
-        let names = names(header);
-        let has = |name: &str| names.iter().any(|known| known == name);
-        let colors = |prefix: &str| ["R", "G", "B"].map(|letter| format!("{prefix}{letter}"));
-        let prefixes = names.iter().filter_map(|name| name.strip_suffix('R'));
-        let mut prefixes: Vec<&str> =
-            prefixes.filter(|prefix| colors(prefix).iter().all(|name| has(name))).collect();
+        Self::colors_with(&names(header), RGB, "A")
+            .or_else(|| Self::colors_with(&names(header), ["r", "g", "b"], "a"))
+    }
+
+    fn colors_with(names: &[String], letters: [&str; 3], alpha: &str) -> Option<Self> {
+        let mut prefixes = prefixes(names, letters);
         // The combined picture before its parts.
         prefixes
             .sort_by_key(|prefix| (!prefix.is_empty(), !prefix.contains("Combined"), prefix.len()));
         let prefix = prefixes.first()?;
+        let colors = |prefix: &str| letters.map(|letter| format!("{prefix}{letter}"));
+        let names = colors(prefix);
+        let [red, green, blue] = &names;
         let note = (!prefix.is_empty()).then(|| {
-            format!(
-                "of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read"
-            )
+            format!("of the channels of the picture `{red}`, `{green}` and `{blue}` are read")
         });
-        Some(Self { names: colors(prefix), is_grey: false, alpha: format!("{prefix}A"), note })
+        let alpha = format!("{prefix}{alpha}");
+        Some(Self { names, is_grey: false, alpha, note })
     }
 
     /// Luminance, or the only channel.

@@ -218,7 +218,38 @@ fn jpeg(
     let Jpeg { decoder, size, .. } = jpeg;
     declared.orientation = decoder.exif().map_or(1, |exif| orientation::of_exif(exif));
     declared.xmp = decoder.xmp().map(|xmp| String::from_utf8_lossy(xmp).into_owned());
+    if has_gain_map(file) {
+        notes.push(
+            "its gain map is not read: bright light is that of the picture itself".to_owned(),
+        );
+    }
     Ok((size, Pixels::Srgb(pixels)))
+}
+
+/// True if the segments before the pixels of a JPEG file announce a gain map (Ultra HDR, ISO
+/// 21496-1, or that of Apple's telephones).
+fn has_gain_map(file: &[u8]) -> bool {
+    /// In texts of XMP, and in a segment of its own.
+    const MARKS: [&[u8]; 3] = [
+        b"http://ns.adobe.com/hdr-gain-map/",
+        b"urn:iso:std:iso:ts:21496:-1",
+        b"http://ns.apple.com/HDRGainMap/",
+    ];
+    let mut at = 2;
+    while let Some(&[0xff, marker, high, low]) = file.get(at..at + 4) {
+        let length = usize::from(u16::from_be_bytes([high, low]));
+        let segment = file.get(at + 4..(at + 2).saturating_add(length)).unwrap_or_default();
+        let has = |mark: &&[u8]| segment.windows(mark.len()).any(|window| window == *mark);
+        if (0xe1..=0xef).contains(&marker) && MARKS.iter().any(has) {
+            return true;
+        }
+        // The start of the pixels.
+        if marker == 0xda {
+            return false;
+        }
+        at += 2 + length.max(2);
+    }
+    false
 }
 
 /// What holds the pixels of a JPEG file.

@@ -251,11 +251,13 @@ pub fn main() -> ExitCode {
             context.report(&findings.report());
         }
         converted.warnings.iter().for_each(|warning| context.warn(warning));
-        for note in &converted.notes {
-            let is_scene = config.target == Target::Ug;
-            let remedy = if is_scene { "; name its file on the command line" } else { "" };
-            context.note(&format!("{note}{remedy}"));
-        }
+        let missing = converted.lacks_pictures.then_some(pipe::PICTURES_LEFT_OUT);
+        converted
+            .notes
+            .iter()
+            .map(String::as_str)
+            .chain(missing)
+            .for_each(|note| context.note(note));
         let folder = args.common.output().and_then(Path::parent).unwrap_or(Path::new(""));
         for (name, bytes) in &converted.pictures {
             context.write_file(&folder.join(name), bytes)?;

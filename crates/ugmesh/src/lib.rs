@@ -156,6 +156,8 @@ pub struct Converted {
     pub warnings: Vec<String>,
     /// Warnings about a scene.
     pub diagnostics: Option<Diagnostics>,
+    /// A scene has no textures that are within a mesh from standard input, which no file names.
+    pub lacks_pictures: bool,
 }
 
 /// Reads a mesh or scene, scales and moves it, and writes it.
@@ -176,7 +178,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     if format == MeshFormat::Ug && !config.name.is_empty() {
         return Err(Error::NotMesh);
     }
-    let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
+    let Loaded { mut scene, warnings, mut notes, diagnostics } = load(config, format, input)?;
     if config.target != Target::Ug {
         ugscene::refuse_deferred_colors(&scene)?;
     }
@@ -194,18 +196,20 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     }
     scene.head.record(input.provenance);
     let mut pictures = Vec::new();
-    let mut missing = None;
+    let mut lacks_pictures = false;
     if config.target == Target::Ug {
-        (pictures, missing) = pictures_of(&mut scene, config.pictures.as_ref(), &input.name);
+        pictures = pictures_of(&mut scene, config.pictures.as_ref(), &input.name);
+        lacks_pictures = scene.textures.iter().any(|texture| texture.image.file.is_none());
     }
-    let (bytes, mut notes) = write::write(scene, config.target, is_placed)?;
-    notes.extend(missing);
-    Ok(Converted { bytes, pictures, notes, warnings, diagnostics })
+    let (bytes, more) = write::write(scene, config.target, is_placed)?;
+    notes.extend(more);
+    Ok(Converted { bytes, pictures, notes, warnings, diagnostics, lacks_pictures })
 }
 
 struct Loaded {
     scene: Scene,
     warnings: Vec<String>,
+    notes: Vec<String>,
     diagnostics: Option<Diagnostics>,
 }
 
@@ -217,10 +221,10 @@ fn load(config: &Config, format: MeshFormat, input: &MeshFile) -> Result<Loaded,
     let read =
         || ugmeshfile::read_within(format, &input.bytes, input.read_file, &config.name, memory);
     let (read, origin) = ugparse::with_origin(input.origin.as_ref(), &input.bytes, read);
-    let MeshScene { mut scene, warnings, .. } =
+    let MeshScene { mut scene, warnings, notes, .. } =
         read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
     scene.head.origin = origin;
-    Ok(Loaded { scene, warnings, diagnostics: None })
+    Ok(Loaded { scene, warnings, notes, diagnostics: None })
 }
 
 fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
@@ -231,7 +235,8 @@ fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
     if config.target != Target::Ug {
         parsed.cut_rounds(&source, None)?;
     }
-    Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
+    let (scene, diagnostics) = (parsed.scene, Some(parsed.warnings));
+    Ok(Loaded { scene, warnings: Vec::new(), notes: Vec::new(), diagnostics })
 }
 
 /// Names and bytes of files.
@@ -239,17 +244,11 @@ type Files = Vec<(String, Arc<[u8]>)>;
 
 /// Names the pictures of a scene by files beside it; returns those to be written. Without such
 /// files they are where the mesh has them, from the current folder.
-fn pictures_of(
-    scene: &mut Scene,
-    files: Option<&PictureFiles>,
-    mesh: &str,
-) -> (Files, Option<String>) {
+fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>, mesh: &str) -> Files {
     let mut pictures: Files = Vec::new();
     let Some(PictureFiles { stem, is_beside_mesh }) = files else {
         ugparse::name_pictures(scene, mesh);
-        let is_unnamed = scene.textures.iter().any(|texture| texture.image.file.is_none());
-        let note = "textures within a mesh from standard input are left out".to_owned();
-        return (pictures, is_unnamed.then_some(note));
+        return pictures;
     };
     for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
         let is_file = image.row.is_none()
@@ -274,7 +273,7 @@ fn pictures_of(
             });
         (image.file, image.row) = (Some(pictures[row].0.clone()), None);
     }
-    (pictures, None)
+    pictures
 }
 
 /// Turns, scales and moves the mesh. Returns false if it did nothing.

@@ -1,7 +1,7 @@
 //! Placing a mesh: up axis, scale and centre.
 
 use glam::DVec3;
-use ugscene::Scene;
+use ugscene::{Beam, LightKind, Scene};
 
 use crate::Error;
 
@@ -57,9 +57,24 @@ pub(crate) fn scale_and_center(
         }
         camera.film_size = camera.film_size.map(|sides| sides.map(|side| side * scale));
     }
-    if scene.vertices.iter().all(|vertex| vertex.position.is_finite()) {
-        Ok(())
-    } else {
-        Err(Error::Overflow)
+    for light in &mut scene.lights {
+        if let LightKind::Local { position, radius, reference, beam } = &mut light.kind {
+            *position = (*position - middle) * scale + DVec3::ZERO;
+            *radius *= scale;
+            *reference = reference.map(|reference| reference * scale);
+            if let Beam::Area(edges) = beam {
+                *edges = edges.map(|edge| edge * scale);
+            }
+        }
     }
+    let is_lamp_valid = |kind: LightKind| match kind {
+        LightKind::Local { position, reference, beam, .. } => {
+            let is_away = reference.is_none_or(|it| it > 0.0 && it.is_finite());
+            position.is_finite() && is_away && beam.is_valid()
+        }
+        LightKind::Ambient | LightKind::Directional(_) => true,
+    };
+    let is_placed = scene.vertices.iter().all(|vertex| vertex.position.is_finite())
+        && scene.lights.iter().all(|light| is_lamp_valid(light.kind));
+    if is_placed { Ok(()) } else { Err(Error::Overflow) }
 }

@@ -40,8 +40,10 @@ impl PolygonMesh {
         let n_wires = scene.wires.len() - n_labels;
         note_count(&mut notes, n_wires, "wire is left out", "wires are left out");
         note_count(&mut notes, n_labels, "label is left out", "labels are left out");
-        note_count(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
+        // Formats with cameras have lights, too.
         if !has_camera {
+            let n_lights = scene.lights.len();
+            note_count(&mut notes, n_lights, "light is left out", "lights are left out");
             note_count(
                 &mut notes,
                 scene.cameras.len(),
@@ -70,25 +72,28 @@ impl PolygonMesh {
     pub fn groups(&mut self) -> Vec<Group> {
         const MAX: usize = 256;
         let all = 0..self.faces.len() as u32;
-        let text = |name: NameId| self.scene.names.get(name);
+        let text = |name: NameId| self.scene.names.get(name).to_owned();
         let mut groups: Vec<Group> = Vec::new();
-        let mut rows: FxHashMap<(Option<&str>, Option<ColorId>), usize> = FxHashMap::default();
+        let mut rows: FxHashMap<GroupKey, usize> = FxHashMap::default();
         for polygon in all.clone() {
             let face = &self.scene.faces[self.faces[polygon as usize] as usize];
-            let row = *rows.entry((face.name.map(text), face.color)).or_insert_with_key(
-                |&(name, color)| {
-                    let texture = color.and_then(|color| self.scene.texture_of(color)).cloned();
-                    let emitted =
-                        color.and_then(|color| self.scene.emitted_by(color)).map(|color| {
-                            let light = RestColor::new(&self.scene, Some(color)).linear();
-                            (light.to_array(), self.scene.texture_of(color).cloned())
-                        });
-                    let color = color.map(|color| text(self.scene.colors[color.index()].name));
-                    let [name, color] = [name, color].map(|name| name.map(str::to_string));
-                    groups.push(Group { name, color, texture, emitted, polygons: Vec::new() });
-                    groups.len() - 1
-                },
-            );
+            let level = self.scene.light_level(face);
+            // Rows of names may have equal text.
+            let name = face.name.map(|name| self.scene.names.get(name));
+            let key = (name, face.color, level.map(f64::to_bits));
+            let row = *rows.entry(key).or_insert_with(|| {
+                let of = |color| self.scene.texture_of(color).cloned();
+                let emitted =
+                    face.color.and_then(|color| self.scene.emitted_by(color)).map(|color| {
+                        let light = RestColor::new(&self.scene, Some(color)).linear();
+                        (light.to_array(), of(color))
+                    });
+                let name = face.color.map(|color| text(self.scene.colors[color.index()].name));
+                let texture = face.color.and_then(of);
+                let color = GroupColor { name, texture, emitted, level };
+                groups.push(Group { name: face.name.map(text), color, polygons: Vec::new() });
+                groups.len() - 1
+            });
             groups[row].polygons.push(polygon);
         }
         if groups.len() <= MAX {
@@ -97,13 +102,7 @@ impl PolygonMesh {
         let count = groups.len();
         self.notes
             .push(format!("names of faces and colours are left out: {count} are more than {MAX}"));
-        vec![Group {
-            name: None,
-            color: None,
-            texture: None,
-            emitted: None,
-            polygons: all.collect(),
-        }]
+        vec![Group { name: None, color: GroupColor::default(), polygons: all.collect() }]
     }
 
     /// True if any vertex is transparent.
@@ -131,18 +130,37 @@ impl PolygonMesh {
     }
 }
 
-/// Polygons of faces with the same name and colour.
+/// The name, the colour and the bits of the light level of faces.
+type GroupKey<'s> = (Option<&'s str>, Option<ColorId>, Option<u64>);
+
+/// Polygons of faces with the same name, colour and light level.
 pub(crate) struct Group {
     /// The name of the faces.
     pub name: Option<String>,
-    /// The name of their colour.
-    pub color: Option<String>,
-    /// The picture that their colour is.
-    pub texture: Option<Texture>,
-    /// The linear light that they emit, and its picture.
-    pub emitted: Option<([f64; 3], Option<Texture>)>,
+    /// Their colour.
+    pub color: GroupColor,
     /// Rows in the polygons of the mesh.
     pub polygons: Vec<u32>,
+}
+
+/// The colour of polygons, as a material.
+#[derive(Default)]
+pub(crate) struct GroupColor {
+    /// Its name.
+    pub name: Option<String>,
+    /// The picture that it is.
+    pub texture: Option<Texture>,
+    /// The linear light that its faces emit, and its picture.
+    pub emitted: Option<([f64; 3], Option<Texture>)>,
+    /// The light level of faces that are not lit.
+    pub level: Option<f64>,
+}
+
+impl PartialEq for GroupColor {
+    /// Colours of one name are one.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, self.level) == (&other.name, other.level)
+    }
 }
 
 /// The unit vector along `v`, which must not be 0. A vector that is already of unit length keeps
@@ -155,7 +173,8 @@ fn unit(v: DVec3) -> DVec3 {
     }
 }
 
-fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
+/// Adds a note with a count, unless the count is 0.
+pub(crate) fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
     match count {
         0 => {}
         1 => notes.push(format!("1 {one}")),

@@ -1,7 +1,7 @@
 //! The axes of meshes and scenes.
 
 use glam::DVec3;
-use ugscene::Scene;
+use ugscene::{LightKind, Scene};
 
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub fn from_z_up(up: Axis, p: DVec3) -> DVec3 {
     }
 }
 
-/// Rotates all vertices, their normals, and cameras.
+/// Rotates all vertices, their normals, cameras and lights.
 pub fn rotate(scene: &mut Scene, rotation: impl Fn(DVec3) -> DVec3) {
     for vertex in &mut scene.vertices {
         vertex.position = rotation(vertex.position);
@@ -43,6 +43,15 @@ pub fn rotate(scene: &mut Scene, rotation: impl Fn(DVec3) -> DVec3) {
     for camera in &mut scene.cameras {
         for vector in [&mut camera.eye, &mut camera.center, &mut camera.up].into_iter().flatten() {
             *vector = rotation(*vector);
+        }
+    }
+    for light in &mut scene.lights {
+        match &mut light.kind {
+            LightKind::Ambient => {}
+            LightKind::Directional(toward) => *toward = rotation(*toward),
+            LightKind::Local { position, beam, .. } => {
+                (*position, *beam) = (rotation(*position), beam.turned(&rotation));
+            }
         }
     }
 }

@@ -5,8 +5,8 @@ use rustc_hash::FxHashMap;
 use ugphysics::{linear_srgb_to_xyz, srgb_encode};
 use ugpipe::printable;
 use ugscene::{
-    Color, ColorId, ColorValue, Face, NameId, Scene, Texture, UniqueNames, Vertex, VertexId,
-    unit_normal,
+    AlphaMode, Camera, Color, ColorId, ColorValue, Face, Light, NameId, Scene, Shading, ShadingId,
+    Texture, UniqueNames, Vertex, VertexId, shorten, unit_normal,
 };
 
 use crate::error::Problem;
@@ -50,7 +50,21 @@ pub(crate) struct Builder {
     n_corners: usize,
     n_degenerate: usize,
     n_clipped: usize,
+    /// Colours with a number that is NaN.
+    n_nan_colors: usize,
+    /// The following faces are not lit, but emit their colour.
+    pub is_unlit: bool,
+    /// What there is besides faces, for the error if there are none.
+    pub others: Others,
     warnings: Vec<String>,
+}
+
+/// What a mesh has that is not drawn.
+#[derive(Default)]
+pub(crate) struct Others {
+    pub has_points: bool,
+    pub has_lines: bool,
+    pub has_splats: bool,
 }
 
 impl Builder {
@@ -77,7 +91,7 @@ impl Builder {
             return Err(Problem::new(format!("more than {MAX_VERTICES} vertices; split the mesh")));
         }
         let name = self.scene.names.add(&format!("{}v{}", self.prefix, row + 1));
-        let color = color.map(|color| self.color(color));
+        let color = color.and_then(|color| self.color(color));
         let normal = normal.and_then(usable_normal);
         self.scene.vertices.push(Vertex {
             name,
@@ -122,9 +136,13 @@ impl Builder {
         Ok(copy)
     }
 
-    /// The id of a colour without a name; equal colours share one.
-    pub fn color(&mut self, rgba: Rgba) -> ColorId {
-        self.material(rgba, "", None, None)
+    /// The id of a colour without a name; equal colours share one. `None` for a colour with NaN.
+    pub fn color(&mut self, rgba: Rgba) -> Option<ColorId> {
+        if rgba.0.iter().any(|part| part.is_nan()) {
+            self.n_nan_colors += 1;
+            return None;
+        }
+        Some(self.material(rgba, "", None, None))
     }
 
     /// The id of the colour of a material, which gets its name; materials of the same name share
@@ -140,8 +158,8 @@ impl Builder {
         let name = scene_name(name);
         let texture_key = texture.as_ref().map_or(
             String::new(),
-            |Texture { image, wrap, factor, alpha, .. }| {
-                format!("{:?} {wrap:?} {factor:?} {alpha:?}", image.bytes.as_ptr())
+            |Texture { image, wrap, factor, alpha, is_nearest, .. }| {
+                format!("{:?} {wrap:?} {factor:?} {alpha:?} {is_nearest}", image.bytes.as_ptr())
             },
         );
         let key = (name, clipped.map(f64::to_bits), texture_key, emitted);
@@ -208,6 +226,25 @@ impl Builder {
             (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]));
     }
 
+    /// A name of a camera or light; `None` if nothing remains of it.
+    pub fn name(&mut self, name: &str) -> Option<NameId> {
+        let name = scene_name(name);
+        (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]))
+    }
+
+    pub fn light(&mut self, light: Light) {
+        self.scene.lights.push(light);
+    }
+
+    pub fn camera(&mut self, camera: Camera) {
+        self.scene.cameras.push(camera);
+    }
+
+    /// The scene so far.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Counts corners toward the limit, also those of faces without area, which a small glTF file
     /// can use any number of times.
     pub fn count_corners(&mut self, n: usize) -> Result<(), Problem> {
@@ -235,7 +272,11 @@ impl Builder {
         }
         let contours = self.scene.contours.push_all([corners]);
         let face = Face::polygon(contours, self.scene.bodies.unstated());
-        self.scene.faces.push(Face { name: self.face_name, color, ..face });
+        if self.is_unlit && self.scene.shadings.is_empty() {
+            self.scene.shadings.push(Shading::Level(1.0));
+        }
+        let shading = self.is_unlit.then(|| ShadingId::from_index(0));
+        self.scene.faces.push(Face { name: self.face_name, color, shading, ..face });
         self.lines.faces.push(self.line);
         Ok(())
     }
@@ -254,6 +295,13 @@ impl Builder {
         self.warnings.push(text.into());
     }
 
+    /// Adds a warning, unless it is there.
+    pub fn warn_once(&mut self, text: &str) {
+        if !self.warnings.iter().any(|known| known == text) {
+            self.warn(text);
+        }
+    }
+
     /// Adds a warning with a count, `3 lines are left out`, unless the count is 0.
     pub fn warn_count(&mut self, count: usize, one: &str, many: &str) {
         match count {
@@ -264,26 +312,95 @@ impl Builder {
     }
 
     /// The mesh, with the axes of its file.
-    pub fn finish(mut self) -> MeshScene {
-        self.warn_count(
-            self.n_degenerate,
-            "face without area is left out",
-            "faces without area are left out",
-        );
+    ///
+    /// # Errors
+    /// It has nothing that is drawn.
+    pub fn finish(mut self, notes: Vec<String>) -> Result<MeshScene, Problem> {
+        let has_more = !self.scene.lights.is_empty() || !self.scene.cameras.is_empty();
+        if self.scene.faces.is_empty() {
+            let what = self.nothing_to_draw();
+            if !has_more {
+                return Err(Problem::new(what));
+            }
+            self.warn(what);
+        } else {
+            self.warn_count(
+                self.n_degenerate,
+                "face without area is left out",
+                "faces without area are left out",
+            );
+        }
         self.warn_count(
             self.n_clipped,
             "colour is outside 0…1 and clipped",
             "colours are outside 0…1 and clipped",
         );
-        if self.scene.faces.is_empty() {
-            self.warn("the mesh has no faces");
-        }
+        self.warn_count(
+            self.n_nan_colors,
+            "colour is not a number (NaN) and left out",
+            "colours are not numbers (NaN) and left out",
+        );
+        self.show_if_all_is_transparent();
         let n_more = self.warnings.len().saturating_sub(MAX_WARNINGS);
         self.warnings.truncate(MAX_WARNINGS);
         if n_more > 0 {
             self.warn(format!("… and {n_more} more"));
         }
-        MeshScene { scene: self.scene, lines: self.lines, warnings: self.warnings }
+        Ok(MeshScene { scene: self.scene, lines: self.lines, warnings: self.warnings, notes })
+    }
+
+    /// Why a mesh without faces has none.
+    fn nothing_to_draw(&self) -> String {
+        let Others { has_points, has_lines, has_splats } = self.others;
+        let n_vertices = self.n_vertices();
+        if has_splats {
+            "the mesh has no faces, only Gaussian splats; convert them to a mesh".to_owned()
+        } else if self.n_degenerate > 0 {
+            format!("the mesh has no faces with an area: all {} are left out", self.n_degenerate)
+        } else if has_lines {
+            "the mesh has no faces, only lines; give them a thickness".to_owned()
+        } else if n_vertices > 0 || has_points {
+            let points = match n_vertices {
+                0 => "points".to_owned(),
+                1 => "1 point".to_owned(),
+                count => format!("{count} points"),
+            };
+            format!("the mesh has no faces, only {points}; make a surface of the cloud first")
+        } else {
+            "the mesh has no faces: it is empty".to_owned()
+        }
+    }
+
+    /// Makes a mesh opaque of which nothing could be seen: scanners write `Tr 1` and alpha 0 for
+    /// opaque.
+    fn show_if_all_is_transparent(&mut self) {
+        let Scene { faces, vertices, contours, colors, textures, names, .. } = &mut self.scene;
+        let is_clear = |color: Option<ColorId>| {
+            color.is_some_and(|color| colors[color.index()].translucency == 1.0)
+        };
+        let texture_of = |color: ColorId| textures.iter().find(|texture| texture.color == color);
+        let is_hidden = |face: &Face| match face.color.and_then(texture_of) {
+            Some(Texture { alpha: AlphaMode::Blend, factor, .. }) => factor[3] == 0.0,
+            Some(Texture { alpha: AlphaMode::Mask(cutoff), factor, .. }) => factor[3] < *cutoff,
+            Some(Texture { alpha: AlphaMode::Opaque, .. }) => false,
+            None => contours
+                .corners(face.contours.clone())
+                .iter()
+                .all(|corner| is_clear(vertices[corner.index()].color.or(face.color))),
+        };
+        if faces.is_empty() || !faces.iter().all(is_hidden) {
+            return;
+        }
+        let name = faces.iter().find_map(|face| face.color);
+        let name = name.map(|color| names.get(colors[color.index()].name));
+        let name = name.map_or(String::new(), |name| format!(", as `{}` is", shorten(name)));
+        for texture in textures {
+            (texture.factor[3], texture.alpha) = (1.0, AlphaMode::Opaque);
+        }
+        colors.iter_mut().for_each(|color| color.translucency = 0.0);
+        self.warn(format!(
+            "all faces are wholly transparent{name} (`Tr 1`, `d 0` or alpha 0): they are drawn opaque"
+        ));
     }
 }
 

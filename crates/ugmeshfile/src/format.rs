@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
+use serde_json::{Deserializer, Value};
+
 use crate::axes::Axis;
 use crate::decode::decode;
 
@@ -37,19 +39,22 @@ impl MeshFormat {
         Self::by_magic(bytes).or_else(|| Self::by_ending(name)).or_else(|| Self::by_looks(bytes))
     }
 
-    /// Detects a mesh among scenes, which may have any name: by magic number or, in a text whose
-    /// beginning has no `;`, as [`MeshFormat::detect`] does. Statements of scenes end with one,
-    /// and only long lines of meshes in JSON may have one.
+    /// Detects a mesh among scenes, which may have any name but that of a glTF file: by magic
+    /// number or, in a text whose beginning has no `;`, as [`MeshFormat::detect`] does. Statements
+    /// of scenes end with one. JSON is never a scene.
     pub fn detect_mesh(name: &str, bytes: &[u8]) -> Option<Self> {
         /// Number of bytes in which a scene has the end of a statement.
         const FEW: usize = 4096;
         let start = &bytes[..bytes.len().min(FEW)];
         let mut lines = start.split(|&byte| byte == b'\n').filter(|line| !line.starts_with(b"#"));
         let has_statement = lines.any(|line| line.contains(&b';'));
-        let format = Self::by_magic(bytes).or_else(|| match Self::by_looks(bytes) {
-            Some(looks @ (Self::Gltf | Self::Ug)) => Some(looks),
+        let ending = Self::by_ending(name);
+        let format = Self::by_magic(bytes).or_else(|| match (ending, Self::by_looks(bytes)) {
+            (Some(Self::Gltf), _) => ending,
+            (_, Some(looks @ (Self::Gltf | Self::Ug))) => Some(looks),
+            (_, looks) if looks == ending => ending,
             _ if has_statement && !is_binary_stl(bytes) => None,
-            looks => Self::by_ending(name).or(looks),
+            (_, looks) => ending.or(looks),
         });
         format.filter(|format| *format != Self::Ug)
     }
@@ -85,8 +90,8 @@ impl MeshFormat {
         let text = text.trim_start();
         if let Some(inside) = text.strip_prefix('{') {
             // A JSON object begins with a quoted key, a UniGrafix comment with any text.
-            let is_json = inside.trim_start().starts_with('"') && text.contains("\"asset\"");
-            return Some(if is_json { Self::Gltf } else { Self::Ug });
+            let may_be_json = inside.trim_start().starts_with('"');
+            return Some(if may_be_json && is_json(bytes) { Self::Gltf } else { Self::Ug });
         }
         let line =
             text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
@@ -108,6 +113,22 @@ impl MeshFormat {
 
 /// Number of bytes that are examined: some exporters write long comments at the head.
 const PEEK: usize = 1 << 16;
+
+/// True for JSON, complete or cut off: a scene may begin with a comment in braces that is JSON, but
+/// statements follow it.
+fn is_json(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut values = Deserializer::from_slice(bytes).into_iter::<Value>();
+    match values.next() {
+        Some(Ok(_)) => bytes[values.byte_offset()..].trim_ascii().is_empty(),
+        Some(Err(error)) if error.is_eof() => true,
+        // Some exporters write `NaN`, which JSON does not have.
+        _ => bytes.windows(ASSET.len()).any(|window| window == ASSET),
+    }
+}
+
+/// The key that every glTF document has.
+const ASSET: &[u8] = b"\"asset\"";
 
 const UG_KEYWORDS: [&str; 11] = ["v", "w", "f", "c", "c_rgb", "l", "cam", "def", "end", "i", "a"];
 

@@ -57,6 +57,8 @@ pub struct MeshScene {
     pub lines: Lines,
     /// Warnings about possible errors in it, and about parts that are left out.
     pub warnings: Vec<String>,
+    /// What was chosen where it does not say what is meant.
+    pub notes: Vec<String>,
 }
 
 /// Line numbers in a mesh file, from 1; 0 where there are no lines.

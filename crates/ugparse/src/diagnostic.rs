@@ -14,12 +14,14 @@ pub enum Severity {
     Error,
     /// The scene is valid, or was changed as the message states.
     Warning,
+    /// All is well; the message states what was chosen.
+    Note,
 }
 
-/// An error or warning about a scene.
+/// An error, a warning or a note about a scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Error or warning.
+    /// Error, warning or note.
     pub severity: Severity,
     /// The problem: lower case, no full stop.
     pub message: String,
@@ -60,6 +62,11 @@ impl Diagnostic {
     /// A warning at a location.
     pub fn warning(span: Span, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(span, message) }
+    }
+
+    /// A note at a location.
+    pub fn note(span: Span, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Note, ..Self::error(span, message) }
     }
 
     /// An error at a location, with its remedy.

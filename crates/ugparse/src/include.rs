@@ -118,15 +118,18 @@ struct Text {
     n_replaced: usize,
     /// Number of bytes copied or replaced so far.
     n_done: usize,
+    /// It has a camera of its own.
+    has_camera: bool,
 }
 
 impl Text {
     fn new(source: Source, options: &Options) -> Result<Self, Diagnostics> {
         let mut findings = Vec::new();
         let document = reader::read(&source.text, options, &mut findings);
+        let has_camera = document.scopes.iter().any(|scope| !scope.cameras.rows.is_empty());
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
-        Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0 })
+        Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0, has_camera })
     }
 }
 
@@ -238,14 +241,17 @@ impl Inclusion<'_> {
         path: &Path,
     ) -> Result<Arc<[u8]>, Diagnostics> {
         let picture = match statement.row {
-            Some(row) => ugmeshfile::picture_within(file, row as usize).map(Arc::from),
+            Some(row) => {
+                let mesh = path.to_string_lossy();
+                crate::mesh::picture(&mesh, file, row as usize, &mut *self.loader).map(Arc::from)
+            }
             None => Ok(Arc::clone(file)),
         };
         let checked =
             picture.and_then(|picture| Ok((ugmeshfile::check_picture(&picture)?, picture)));
         let (n_bytes, picture) = checked.map_err(|problem| {
             let help = match statement.row {
-                Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
+                Some(_) => "give the number of a picture (PNG or JPEG) of a glTF file, from 0",
                 None => "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels",
             };
             let message = format!("cannot read `{}`: {problem}", path.display());
@@ -351,6 +357,10 @@ impl Inclusion<'_> {
         // Errors would quote lines.
         let mesh = read.ok().and_then(|file| (*file.mesh?).map(|mesh| mesh.scene));
         let mut scene = mesh.ok_or_else(|| self.not_a_scene(statement))?;
+        if self.open.iter().any(|(_, text)| text.has_camera) {
+            // The view is that of the scene, in whatever order the cameras are.
+            scene.cameras.clear();
+        }
         // Statements name files relative to their own.
         let folder = Path::new(&name).parent().unwrap_or(Path::new(""));
         for file in scene.textures.iter_mut().filter_map(|texture| texture.image.file.as_mut()) {

@@ -25,7 +25,8 @@ pub(crate) fn read(
     source.mesh = Some(Box::new(None));
     check_length(&source, options)?;
     let load = RefCell::new(load);
-    let read_file = |name: &str, limit: u64| beside(&source, name, limit, &mut *load.borrow_mut());
+    let read_file =
+        |name: &str, limit: u64| beside(&source.name, name, limit, &mut *load.borrow_mut());
     let memory = options.limits.get(Limit::Memory);
     let mesh = ugmeshfile::read_within(format, &source.text, &read_file, "", memory)
         .map_err(|problem| Diagnostics::one(&source, malformed(&source, format, problem)))?;
@@ -33,19 +34,31 @@ pub(crate) fn read(
     Ok(source)
 }
 
+/// The bytes of a picture that a scene names by a mesh and a row. `load`: as for [`read`].
+pub(crate) fn picture(
+    mesh: &str,
+    bytes: &[u8],
+    row: usize,
+    load: impl FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
+) -> Result<Vec<u8>, String> {
+    let load = RefCell::new(load);
+    let read_file = |name: &str, limit: u64| beside(mesh, name, limit, &mut *load.borrow_mut());
+    ugmeshfile::picture_within(bytes, row, &read_file)
+}
+
 /// Loads a file in the folder of the mesh. A mesh from a pipe has no folder.
 fn beside(
-    source: &Source,
+    mesh: &str,
     name: &str,
     limit: u64,
     load: &mut dyn FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
 ) -> io::Result<Vec<u8>> {
-    if source.name.starts_with('<') {
+    if mesh.starts_with('<') {
         return Err(io::Error::other(
             "standard input has no folder; name the mesh on the command line",
         ));
     }
-    let path = Path::new(&source.name).parent().unwrap_or(Path::new("")).join(name);
+    let path = Path::new(mesh).parent().unwrap_or(Path::new("")).join(name);
     // One byte more than the room is read.
     let request =
         Request { kind: RequestKind::Include, path: &path, room: limit.saturating_sub(1) };
@@ -64,11 +77,10 @@ fn malformed(source: &Source, format: MeshFormat, Problem { line, what }: Proble
 
 fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let origins = origins(source, &mesh.lines);
-    let findings = mesh
-        .warnings
-        .iter()
-        .map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone()))
-        .collect();
+    let warnings =
+        mesh.warnings.iter().map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone()));
+    let notes = mesh.notes.iter().map(|note| Diagnostic::note(Span::WHOLE_FILE, note.clone()));
+    let findings = warnings.chain(notes).collect();
     let mut scene = mesh.z_up(format.up());
     name_pictures(&mut scene, &source.name);
     Parsed::new(source, scene, origins, findings)

@@ -89,9 +89,11 @@ pub fn refused(findings: Diagnostics) -> Failure {
 
 /// The note on textures that the text of a scene leaves out, because they are within a mesh from
 /// standard input, which no file name refers to.
+pub const PICTURES_LEFT_OUT: &str =
+    "textures within a mesh on standard input are left out; name its file on the command line";
+
+/// [`PICTURES_LEFT_OUT`], if that is so of a scene.
 pub fn unnamed_textures(scene: &ugscene::Scene) -> Option<&'static str> {
     let is_unnamed = |texture: &ugscene::Texture| texture.image.file.is_none();
-    let note =
-        "textures within a mesh on standard input are left out; name its file on the command line";
-    scene.textures.iter().any(is_unnamed).then_some(note)
+    scene.textures.iter().any(is_unnamed).then_some(PICTURES_LEFT_OUT)
 }

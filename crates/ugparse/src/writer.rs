@@ -459,7 +459,7 @@ impl<'s> Writer<'s> {
 
     /// Writes `c_tex`; nothing for a picture inside a mesh from standard input, which has no name.
     fn texture(&mut self, texture: &Texture) {
-        let Texture { color, image, wrap, factor, alpha } = texture;
+        let Texture { color, image, wrap, factor, alpha, is_nearest } = texture;
         let Some(file) = &image.file else { return };
         self.begin("c_tex", self.scene.colors[color.index()].name);
         self.text(" \"");
@@ -488,6 +488,9 @@ impl<'s> Writer<'s> {
                 self.number32(cutoff);
             }
             AlphaMode::Blend => self.text(" -blend"),
+        }
+        if *is_nearest {
+            self.text(" -nearest");
         }
         self.text(";");
     }

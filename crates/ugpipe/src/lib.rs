@@ -99,6 +99,7 @@
 
 #[cfg(feature = "cli")]
 mod cli;
+mod other_case;
 mod progress;
 pub mod remedies;
 mod shell;
@@ -107,6 +108,7 @@ mod text;
 
 #[cfg(feature = "cli")]
 pub use cli::*;
+pub use other_case::OtherCase;
 pub use progress::{Progress, Stopped};
 pub use shell::{shell_os_word, shell_pipe, shell_word};
 pub use side::{PIXELS_PER_INCH, Side};

@@ -168,8 +168,9 @@ mod tests {
     #[test]
     fn permissions_are_asked_for() {
         let none = CommonArgs::default();
-        let execute = CommonArgs { allow_execute: true, ..CommonArgs::default() };
-        let outside = CommonArgs { allow_outside: true, ..CommonArgs::default() };
+        let [mut execute, mut outside] = [CommonArgs::default(), CommonArgs::default()];
+        execute.allow_execute = true;
+        outside.allow_outside = true;
         for (option, allowed) in [("--allow-execute", &execute), ("-allow-outside", &outside)] {
             let line = line(&format!("uglorentz a.ug {option}"), "a.ug");
             assert!(recipes(&line, allowed).is_ok());

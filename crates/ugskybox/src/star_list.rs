@@ -26,6 +26,8 @@ struct StarColumn {
     names: &'static [&'static str],
     /// Least and greatest value, and their description.
     range: ([f64; 2], &'static str),
+    /// What an hour or a degree of sexagesimal fields (`hh mm ss`, `hh:mm:ss`) stands for.
+    sexagesimal: Option<f64>,
 }
 
 /// Indices in [`COLUMNS`].
@@ -52,28 +54,37 @@ static COLUMNS: [StarColumn; 11] = [
     StarColumn {
         names: &["ra", "ra_deg", "right ascension", "raj2000", "ra_icrs", "radeg"],
         range: LONGITUDES,
+        sexagesimal: Some(15.0),
     },
-    StarColumn { names: &["ra_hours", "ra_h"], range: ([-24.0, 24.0], "hours from -24 to 24") },
+    StarColumn {
+        names: &["ra_hours", "ra_h"],
+        range: ([-24.0, 24.0], "hours from -24 to 24"),
+        sexagesimal: Some(1.0),
+    },
     StarColumn {
         names: &["dec", "dec_deg", "declination", "dej2000", "de_icrs", "dedeg"],
         range: LATITUDES,
+        sexagesimal: Some(1.0),
     },
-    StarColumn { names: &["lon", "longitude"], range: LONGITUDES },
-    StarColumn { names: &["lat", "latitude"], range: LATITUDES },
-    StarColumn { names: &["x"], range: COORDINATES },
-    StarColumn { names: &["y"], range: COORDINATES },
-    StarColumn { names: &["z"], range: COORDINATES },
+    StarColumn { names: &["lon", "longitude"], range: LONGITUDES, sexagesimal: Some(1.0) },
+    StarColumn { names: &["lat", "latitude"], range: LATITUDES, sexagesimal: Some(1.0) },
+    StarColumn { names: &["x"], range: COORDINATES, sexagesimal: None },
+    StarColumn { names: &["y"], range: COORDINATES, sexagesimal: None },
+    StarColumn { names: &["z"], range: COORDINATES, sexagesimal: None },
     StarColumn {
         names: &["mag", "magnitude", "vmag", "v", "gmag", "phot_g_mean_mag"],
         range: ([-60.0, 60.0], "a magnitude from -60 to 60"),
+        sexagesimal: None,
     },
     StarColumn {
         names: &["kelvin", "temperature", "teff", "teff_gspphot", "t"],
         range: ([100.0, 1e6], "kelvins from 100 to 1000000"),
+        sexagesimal: None,
     },
     StarColumn {
         names: &["b-v", "bv", "ci"],
         range: ([-0.4, 8.0], "a colour index from -0.4 to 8"),
+        sexagesimal: None,
     },
 ];
 
@@ -175,6 +186,11 @@ impl StarListMistake {
                 return match self {
                     Self::NotANumber(_, word) if let Some(remedy) = look_alike(word) => remedy,
                     Self::NotANumber(_, word) if word.contains(',') => format!("{takes}, with a decimal point"),
+                    Self::NotANumber(..) if column.sexagesimal.is_some() => {
+                        let is_time = matches!(column.name(), "ra" | "ra_hours");
+                        let words = if is_time { "`hh mm ss` or `hh:mm:ss`" } else { "`dd mm ss` or `dd:mm:ss`" };
+                        format!("{takes}, or {words}")
+                    }
                     _ => takes,
                 };
             }
@@ -202,7 +218,8 @@ pub fn is_star_list(name: &str, file: &[u8]) -> bool {
 /// Reads a list of stars. `name`: of the file, for messages.
 ///
 /// The first line has the names of columns, separated by commas, semicolons, tabs, bars or blanks;
-/// other columns than the known ones are allowed and ignored. In a list with the columns `ra` and
+/// other columns than the known ones are allowed and ignored. Angles may be sexagesimal (`hh mm
+/// ss`, `hh:mm:ss`, right ascension in hours). In a list with the columns `ra` and
 /// `rarad`, those of the HYG catalogue, `ra` is in hours. Lines that are empty or begin with `#` or
 /// `sep=` are skipped, and so are lines of units, without a digit, before the first star. Stars
 /// without a magnitude, a temperature or a direction are left out.
@@ -416,11 +433,12 @@ impl Layout {
         })
     }
 
-    /// The right ascension of a star of the list, degrees; NaN without one.
+    /// The right ascension of a star of the list as a single number of degrees; NaN without one.
     fn right_ascension(&self, record: &ByteRecord) -> f64 {
         match self.direction {
             Direction::Angles([(Column::Ra, idx), _]) => {
-                number(&COLUMNS[Column::Ra as usize], &record[idx]).unwrap_or(f64::NAN)
+                let field = str::from_utf8(&record[idx]).unwrap_or_default();
+                field.trim().parse().unwrap_or(f64::NAN)
             }
             _ => f64::NAN,
         }
@@ -476,16 +494,50 @@ fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMist
         format!("{}{rest}", String::from_utf8_lossy(&field[..field.len().min(MOST_QUOTED)]))
     };
     let ([least, most], _) = column.range;
-    match std::str::from_utf8(field).unwrap_or_default().parse::<f64>() {
-        _ if NOTHING.iter().any(|it| field.eq_ignore_ascii_case(it)) => {
-            Err(StarListMistake::Empty(column))
-        }
-        Err(_) => Err(StarListMistake::NotANumber(column, quoted())),
-        Ok(number) if !(least..=most).contains(&number) => {
+    if NOTHING.iter().any(|it| field.eq_ignore_ascii_case(it)) {
+        return Err(StarListMistake::Empty(column));
+    }
+    let text = std::str::from_utf8(field).unwrap_or_default();
+    let number = text.parse::<f64>().ok().or_else(|| sexagesimal(text, column.sexagesimal?));
+    match number {
+        None => Err(StarListMistake::NotANumber(column, quoted())),
+        Some(number) if !(least..=most).contains(&number) => {
             Err(StarListMistake::OutOfRange(column, quoted()))
         }
-        Ok(number) => Ok(number),
+        Some(number) => Ok(number),
     }
+}
+
+/// The number that hours or degrees, minutes and seconds stand for, times `unit`: `-00 30 00.0`,
+/// `05:30:00`, `5h30m0s`, `-0°30'`. The sign is that of all parts, also of −00.
+fn sexagesimal(text: &str, unit: f64) -> Option<f64> {
+    let unsigned = text.trim_start_matches(['+', '-']);
+    if text.len() > unsigned.len() + 1 {
+        return None;
+    }
+    let is_mark = |c: char| matches!(c, 'h' | 'd' | 'm' | 's' | '°' | '\'' | '"' | '′' | '″' | ':');
+    let is_in_degrees = unsigned.contains(['d', '°']);
+    // Degrees of right ascension are no hours, and hours of others no degrees.
+    if is_in_degrees && unsigned.contains('h') || unit == 1.0 && unsigned.contains('h') {
+        return None;
+    }
+    let words =
+        unsigned.split(|c: char| is_mark(c) || c.is_whitespace()).filter(|it| !it.is_empty());
+    let mut parts = [0.0_f64; 3];
+    let mut n_parts = 0;
+    for word in words {
+        let is_plain = word.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+        let part: f64 = word.parse().ok().filter(|_| is_plain)?;
+        // Before another part is a whole number; rounded seconds may be 60.
+        let is_whole = n_parts == 0 || parts[n_parts - 1].fract() == 0.0;
+        let is_within = n_parts == 0 || part < 60.0 || n_parts == 2 && part == 60.0;
+        *parts.get_mut(n_parts).filter(|_| is_whole && is_within)? = part;
+        n_parts += 1;
+    }
+    let [whole, minutes, seconds] = parts;
+    let sum = whole + (minutes + seconds / 60.0) / 60.0;
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    (n_parts >= 2).then_some(sign * sum * if is_in_degrees { 1.0 } else { unit })
 }
 
 /// A direction in the axes of panoramas: y ahead, x to the right and z up. Longitude increases to

@@ -353,6 +353,68 @@ fn the_part_with_colours_is_read() {
     }
 }
 
+/// What EXR files have and is not read is told by name: channels of files that are refused, and
+/// pictures for another eye, in parts or in channels.
+#[test]
+fn what_is_not_read_of_exr_is_told() {
+    use exr::prelude::*;
+
+    let channels = |names: &[&str]| {
+        let channel = |name: &&str| AnyChannel::new(*name, FlatSamples::F32(vec![0.25, 0.5]));
+        AnyChannels::sort(names.iter().map(channel).collect())
+    };
+    let write = |parts: &[(&str, &[&str])]| {
+        let layer = |&(view, names): &(&str, &[&str])| {
+            let attributes = LayerAttributes {
+                layer_name: Some(format!("part {view}").as_str().into()),
+                view_name: (!view.is_empty()).then(|| view.into()),
+                ..Default::default()
+            };
+            Layer::new((2, 1), attributes, Encoding::UNCOMPRESSED, channels(names))
+        };
+        let layers: Vec<_> = parts.iter().map(layer).collect();
+        let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((2, 1)));
+        let mut file = std::io::Cursor::new(Vec::new());
+        Image::from_layers(attributes, layers).write().to_buffered(&mut file).unwrap();
+        file.into_inner()
+    };
+    let notes = |parts: &[(&str, &[&str])]| {
+        let picture = ugimage::read_picture(&write(parts), &PictureLimits::default()).unwrap();
+        let grey = [[0.25, 0.25, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0]];
+        assert_eq!(picture.pixels, Pixels::Light(grey.to_vec()));
+        picture.notes
+    };
+    const RGB: &[&str] = &["R", "G", "B"];
+    assert_eq!(notes(&[("", RGB)]), [""; 0]);
+    assert_eq!(notes(&[("", &["r", "g", "b"])]), [""; 0]);
+    let two = "of the parts of the file `left` is read, not `right`";
+    assert_eq!(notes(&[("left", RGB), ("right", RGB)]), [two]);
+    let both = [RGB, &["right.R", "right.G", "right.B"]].concat();
+    assert_eq!(notes(&[("", &both)]), ["the picture for another eye is not read: `right`"]);
+    let refused = read(&write(&[("", &["N.X", "N.Y", "id"])])).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "not a readable EXR file: it has no channels of colours (`R`, `G`, `B`, or `Y`): its \
+         channels are `N.X`, `N.Y`, `id`"
+    );
+}
+
+/// The picture of a JPEG file with a gain map is read without it, with a note.
+#[test]
+fn gain_maps_are_told() {
+    let notes = |kind: u8, text: &[u8]| {
+        ugimage::read_picture(&with_segment(kind, text), &PictureLimits::default()).unwrap().notes
+    };
+    let told = ["its gain map is not read: bright light is that of the picture itself"];
+    let xmp =
+        b"http://ns.adobe.com/xap/1.0/\0<x xmlns:hdrgm=\"http://ns.adobe.com/hdr-gain-map/1.0/\"";
+    assert_eq!(notes(0xe1, xmp), told);
+    assert_eq!(notes(0xe2, b"urn:iso:std:iso:ts:21496:-1\0"), told);
+    assert_eq!(notes(0xe1, b"http://ns.adobe.com/xap/1.0/\0<x>"), [""; 0]);
+    // In a comment it is only text.
+    assert_eq!(notes(0xfe, xmp), [""; 0]);
+}
+
 /// A layer beside the middle of its display window, in X, Y and Z.
 #[test]
 fn windows_and_chromaticities_of_exr_are_applied() {

@@ -9,14 +9,17 @@ use serde_json::{Value, json};
 use ugphysics::srgb_decode;
 use ugscene::{AlphaMode, Camera, Texture, Wrap};
 
+use super::gltf_lights::{self, node_matrix};
 use crate::Error;
-use crate::polygon_mesh::PolygonMesh;
+use crate::polygon_mesh::{GroupColor, PolygonMesh};
 
 /// OpenGL constants for component types and buffer targets.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+/// That for texels that are flat squares.
+const NEAREST: u32 = 9728;
 
 pub(super) fn write_glb(mesh: &mut PolygonMesh) -> Result<Vec<u8>, Error> {
     check_range(mesh)?;
@@ -60,66 +63,11 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         },
     });
     let mut buffer = Buffer::default();
-    if let Some((camera, matrix)) = mesh.scene.camera().and_then(camera) {
-        document["cameras"] = json!([camera]);
-        document["scene"] = 0.into();
-        document["scenes"] = json!([{ "nodes": [0] }]);
-        document["nodes"] = json!([{ "camera": 0, "matrix": matrix }]);
-    }
+    let mut nodes: Vec<Value> = Vec::new();
+    let mut extensions: Vec<&str> = Vec::new();
     // glTF does not allow empty lists and accessors.
     if !mesh.polygons.is_empty() {
-        let attributes = attributes(mesh, &mut buffer);
-        let groups = mesh.groups();
-        let names = distinct(groups.iter().map(|group| &group.name));
-        let colors = distinct(groups.iter().map(|group| &group.color));
-        let mut meshes = vec![Vec::new(); names.len()];
-        let mut is_transparent = vec![false; colors.len()];
-        let mut textures = vec![(None, None); colors.len()];
-        for group in &groups {
-            let row = |list: &[&Option<String>], name| list.iter().position(|&other| other == name);
-            let (Some(at), Some(material)) = (row(&names, &group.name), row(&colors, &group.color))
-            else {
-                continue;
-            };
-            is_transparent[material] |=
-                group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
-            textures[material] = (group.texture.clone(), group.emitted.clone());
-            let indices = indices(mesh, &group.polygons, &mut buffer);
-            meshes[at].push(
-                json!({ "attributes": attributes, "indices": indices, "material": material, "mode": 4 }),
-            );
-        }
-        let mut nodes: Vec<Value> = names
-            .iter()
-            .enumerate()
-            .map(|(row, name)| named(json!({ "mesh": row }), name))
-            .collect();
-        nodes.extend(document["nodes"].as_array().cloned().unwrap_or_default());
-        document["scene"] = 0.into();
-        document["scenes"] = json!([{ "nodes": Vec::from_iter(0..nodes.len()) }]);
-        document["nodes"] = nodes.into();
-        let meshes = meshes.into_iter().zip(&names);
-        document["meshes"] =
-            meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
-        let mut pictures = Pictures::default();
-        let materials = is_transparent.into_iter().zip(&textures).zip(&colors);
-        let materials = materials.map(|((is_clear, (texture, emitted)), name)| {
-            let mut material = material(is_clear);
-            if let Some((light, texture)) = emitted {
-                pictures.add_emitted(
-                    (*light, texture.as_ref()),
-                    &mut material,
-                    &mut buffer,
-                    &mut mesh.notes,
-                );
-            }
-            if let Some(texture) = texture {
-                pictures.add(texture, &mut material, &mut buffer, &mut mesh.notes);
-            }
-            named(material, name)
-        });
-        document["materials"] = materials.collect();
-        pictures.write(&mut document);
+        nodes = add_meshes(mesh, &mut document, &mut buffer, &mut extensions);
         document["accessors"] = Value::Array(buffer.accessors);
         document["bufferViews"] = Value::Array(buffer.views);
         document["buffers"] = json!([{ "byteLength": buffer.bytes.len() }]);
@@ -128,7 +76,88 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
                 (uri.to_string() + &BASE64_STANDARD.encode(&buffer.bytes)).into();
         }
     }
+    if let Some((camera, matrix)) = mesh.scene.camera().and_then(camera) {
+        document["cameras"] = json!([camera]);
+        nodes.push(json!({ "camera": 0, "matrix": matrix }));
+    }
+    let lights = gltf_lights::lights(&mesh.scene, &mut mesh.notes);
+    if !lights.is_empty() {
+        extensions.push(gltf_lights::NAME);
+        let (lights, places): (Vec<Value>, Vec<Value>) = lights.into_iter().unzip();
+        document["extensions"][gltf_lights::NAME] = json!({ "lights": lights });
+        nodes.extend(places);
+    }
+    if !nodes.is_empty() {
+        document["scene"] = 0.into();
+        document["scenes"] = json!([{ "nodes": Vec::from_iter(0..nodes.len()) }]);
+        document["nodes"] = nodes.into();
+    }
+    if !extensions.is_empty() {
+        document["extensionsUsed"] = json!(extensions);
+    }
     (document, buffer.bytes)
+}
+
+/// Adds meshes and materials; returns their nodes.
+fn add_meshes(
+    mesh: &mut PolygonMesh,
+    document: &mut Value,
+    buffer: &mut Buffer,
+    extensions: &mut Vec<&str>,
+) -> Vec<Value> {
+    let attributes = attributes(mesh, buffer);
+    let groups = mesh.groups();
+    let names = distinct(groups.iter().map(|group| &group.name));
+    let colors = distinct(groups.iter().map(|group| &group.color));
+    let mut meshes = vec![Vec::new(); names.len()];
+    let mut is_transparent = vec![false; colors.len()];
+    for group in &groups {
+        let at = names.iter().position(|&name| *name == group.name);
+        let color = colors.iter().position(|&color| *color == group.color);
+        let (Some(at), Some(material)) = (at, color) else { continue };
+        is_transparent[material] |=
+            group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
+        let indices = indices(mesh, &group.polygons, buffer);
+        meshes[at].push(
+            json!({ "attributes": attributes, "indices": indices, "material": material, "mode": 4 }),
+        );
+    }
+    let meshes = meshes.into_iter().zip(&names);
+    document["meshes"] =
+        meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
+    let mut pictures = Pictures::default();
+    let materials = is_transparent.into_iter().zip(&colors);
+    let materials = materials.map(|(is_clear, color)| {
+        let GroupColor { name, texture, emitted, level } = color;
+        let mut material = material(is_clear);
+        if let Some((light, texture)) = emitted {
+            let emitted = (*light, texture.as_ref());
+            pictures.add_emitted(emitted, &mut material, buffer, &mut mesh.notes);
+        }
+        if let Some(texture) = texture {
+            pictures.add(texture, &mut material, buffer, &mut mesh.notes);
+        }
+        if let Some(level) = level {
+            add_level(*level, &mut material);
+            pictures.is_unlit = true;
+        }
+        named(material, name)
+    });
+    document["materials"] = materials.collect();
+    pictures.write(document, extensions);
+    let nodes = names.iter().enumerate();
+    nodes.map(|(row, name)| named(json!({ "mesh": row }), name)).collect()
+}
+
+/// Makes a material emit its colour times a light level, whatever lights it.
+fn add_level(level: f64, material: &mut Value) {
+    material["extensions"]["KHR_materials_unlit"] = json!({});
+    if level < 1.0 {
+        let surface = &mut material["pbrMetallicRoughness"];
+        let number = |channel: usize| surface["baseColorFactor"][channel].as_f64().unwrap_or(1.0);
+        let [red, green, blue] = [0, 1, 2].map(|channel| (number(channel) * level) as f32);
+        surface["baseColorFactor"] = json!([red, green, blue, number(3) as f32]);
+    }
 }
 
 /// A camera of a scene with all its values, and the matrix of its node by columns. It looks along
@@ -137,16 +166,7 @@ fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
     /// Clipping distances, as parts of the distance to the view centre.
     const CLIP: [f64; 2] = [1e-3, 1e3];
     let (eye, center, up) = (camera.eye?, camera.center?, camera.up?);
-    let backward = (eye - center).normalize();
-    let right = up.cross(backward).normalize();
-    let axes = [right, backward.cross(right), backward];
-    let mut matrix = [0.0; 16];
-    for (column, (axis, w)) in
-        axes.into_iter().map(|axis| (axis, 0.0)).chain([(eye, 1.0)]).enumerate()
-    {
-        let row = axis.extend(w).as_vec4().to_array();
-        matrix[4 * column..][..4].copy_from_slice(&row);
-    }
+    let matrix = node_matrix(eye, (eye - center).normalize(), up);
     let number = |x: f64| (x as f32).clamp(f32::MIN_POSITIVE, f32::MAX);
     let [near, far] = CLIP.map(|part| number(part * eye.distance(center)));
     let lens = match (camera.view_angle, camera.film_size) {
@@ -165,12 +185,12 @@ fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
     matrix.iter().all(|number| number.is_finite()).then_some((lens, matrix))
 }
 
-/// The names in order of first appearance, each once.
-fn distinct<'a>(names: impl Iterator<Item = &'a Option<String>>) -> Vec<&'a Option<String>> {
+/// The values in order of first appearance, each once.
+fn distinct<'a, T: PartialEq>(values: impl Iterator<Item = &'a T>) -> Vec<&'a T> {
     let mut list = Vec::new();
-    names.for_each(|name| {
-        if !list.contains(&name) {
-            list.push(name);
+    values.for_each(|value| {
+        if !list.contains(&value) {
+            list.push(value);
         }
     });
     list
@@ -206,6 +226,8 @@ struct Pictures {
     known: Vec<Arc<[u8]>>,
     /// A material emits more than a factor of 1.
     has_strength: bool,
+    /// A material is not lit.
+    is_unlit: bool,
 }
 
 impl Pictures {
@@ -236,7 +258,11 @@ impl Pictures {
             Wrap::Clamp => 33071,
             Wrap::Mirror => 33648,
         });
-        let sampler = row(&mut self.samplers, json!({ "wrapS": s, "wrapT": t }));
+        let mut sampler = json!({ "wrapS": s, "wrapT": t });
+        if texture.is_nearest {
+            (sampler["magFilter"], sampler["minFilter"]) = (json!(NEAREST), json!(NEAREST));
+        }
+        let sampler = row(&mut self.samplers, sampler);
         Some(row(&mut self.textures, json!({ "source": source, "sampler": sampler })))
     }
 
@@ -260,8 +286,8 @@ impl Pictures {
         let strength = factor.into_iter().fold(1.0, f64::max);
         material["emissiveFactor"] = json!(factor.map(|part| (part / strength) as f32));
         if strength > 1.0 {
-            material["extensions"] =
-                json!({ "KHR_materials_emissive_strength": { "emissiveStrength": strength } });
+            material["extensions"]["KHR_materials_emissive_strength"] =
+                json!({ "emissiveStrength": strength });
             self.has_strength = true;
         }
     }
@@ -286,16 +312,19 @@ impl Pictures {
             }
             AlphaMode::Mask(cutoff) => {
                 material["alphaMode"] = "MASK".into();
-                material["alphaCutoff"] = json!(cutoff);
+                // Factors of glTF are at most 1.
+                material["alphaCutoff"] = json!(cutoff / texture.factor[3].max(1.0));
             }
             AlphaMode::Blend => material["alphaMode"] = "BLEND".into(),
         }
     }
 
-    fn write(self, document: &mut Value) {
-        if self.has_strength {
-            document["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
-        }
+    fn write(self, document: &mut Value, extensions: &mut Vec<&str>) {
+        let used = [
+            (self.has_strength, "KHR_materials_emissive_strength"),
+            (self.is_unlit, "KHR_materials_unlit"),
+        ];
+        extensions.extend(used.into_iter().filter(|used| used.0).map(|used| used.1));
         if !self.images.is_empty() {
             document["images"] = self.images.into();
             document["samplers"] = self.samplers.into();

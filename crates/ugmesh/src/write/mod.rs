@@ -1,6 +1,7 @@
 //! Writers: one per format, all of which write a [`PolygonMesh`].
 
 mod gltf;
+mod gltf_lights;
 mod obj;
 mod ply;
 mod vtp;

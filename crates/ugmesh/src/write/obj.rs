@@ -51,8 +51,8 @@ fn write_all(mesh: &PolygonMesh, groups: &[Group], text: &mut String) -> std::fm
             name = &group.name;
             writeln!(text, "g {}", name.as_deref().unwrap_or("default"))?;
         }
-        if *color != group.color {
-            color = &group.color;
+        if *color != group.color.name {
+            color = &group.color.name;
             // Programs that know no material of this name keep the colours of the vertices.
             writeln!(text, "usemtl {}", color.as_deref().unwrap_or("default"))?;
         }

@@ -61,6 +61,36 @@ fn missing_materials_are_a_warning() {
     );
 }
 
+/// Names of files that differ in case alone are found, also those of folders, but none outside the
+/// folder of the mesh.
+#[test]
+fn files_of_other_case_are_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let ugmesh = UGMESH.in_folder(&folder);
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir_all(path("mesh/Parts")).unwrap();
+    fs::write(path("mesh/cube.obj"), OBJ.replace("cube.mtl", "parts/CUBE.mtl")).unwrap();
+    fs::write(path("mesh/Parts/cube.MTL"), MTL).unwrap();
+    let note = "ugmesh: note: `Parts/cube.MTL` is read in place of `parts/CUBE.mtl`\n";
+    assert_eq!(ugmesh.notes("mesh/cube.obj", ""), note);
+    assert!(ugmesh.text("-qt mesh/cube.obj", "").contains("c_rgb red 1 0 0;"));
+    fs::write(path("secret.mtl"), MTL).unwrap();
+    fs::write(path("mesh/cube.obj"), OBJ.replace("cube.mtl", "../SECRET.mtl")).unwrap();
+    let notes = ugmesh.notes("mesh/cube.obj", "");
+    assert!(notes.contains("colours are missing") && !notes.contains("secret.mtl"), "{notes}");
+}
+
+/// JSON is a glTF document wherever its keys are, and never a scene.
+#[test]
+fn json_is_not_a_scene() {
+    let late = format!("{{\"extras\": \"{}\", \"asset\": {{}}}}", "x".repeat(70_000));
+    let message = "cannot read `<stdin>` as glTF: this is JSON, but not a glTF document";
+    for json in [late.as_str(), "{\"a\": {}}"] {
+        UGMESH.refuses("", json, 1, message);
+        UGMESH.refuses("-dt obj", json, 1, message);
+    }
+}
+
 #[test]
 fn scenes_may_include_files() {
     let folder = tempfile::tempdir().unwrap();

@@ -226,10 +226,11 @@ fn gltf_needs_only_what_is_read() {
         r#","animations":[{"channels":[{"sampler":0,"target":{"path":"weights"}}],"samplers":[{}]}]"#,
         "",
         "",
-        "",
+        "animations are not read: everything is at rest where its node is",
     );
     plain(r#","buffers":[{"byteLength":36},{"byteLength":400,"extensions":{"x":{}}}]"#, "", "", "");
-    plain("", "", r#","targets":[{"POSITION":5}]"#, "");
+    let morphed = "morph targets are not read: meshes have their base shape";
+    plain("", "", r#","targets":[{"POSITION":5}]"#, morphed);
     plain(
         r#","skins":[{"joints":[0]}]"#,
         r#","skin":0,"translation":[10,0,0],"scale":[100,100,100]"#,
@@ -249,7 +250,9 @@ fn gltf_needs_only_what_is_read() {
     let glossy = r#","materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,1]}}}]"#;
     check(glossy, "", r#","material":0"#, red, "");
     let hidden = r#","extensions":{"KHR_node_visibility":{"visible":false}}"#;
-    check("", hidden, "", "", "the mesh has no faces");
+    let problem = ugmesh::run(&Config::default(), &MeshFile::new("a.glb", gltf("", hidden, "")));
+    let problem = problem.err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(problem.ends_with("the mesh has no faces: it is empty"), "{problem}");
     let webp = r#","extensionsRequired":["EXT_texture_webp"],"textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],
         "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0}}}]"#;
     let missing = "texture `texture 0`: it has no PNG or JPEG picture; its faces have the colour of their material";
@@ -274,14 +277,6 @@ fn containers_of_gltf_may_have_more() {
     for file in [longer, padded] {
         assert_eq!(shown(&run("a.glb", &file, &[])).0, expected);
     }
-    let empty = run(
-        "a.glb",
-        &glb(
-            r#"{"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{}}]}],"nodes":[{"mesh":0}]}"#,
-            b"",
-        ),
-        &[],
-    );
     let three = glb(r#"{"asset":{"version":"2.0","minVersion":"3.0"}}"#, b"");
     let config = Config { up: Some(Axis::Z), ..Config::default() };
     let message =
@@ -291,11 +286,14 @@ fn containers_of_gltf_may_have_more() {
     );
     // A buffer by a path with backslashes.
     let far = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"x\\a%20b.bin"}]}"#;
-    let read = run("a.gltf", far.as_bytes(), &[("x/a b.bin", b"abc")]);
-    assert_eq!(read.warnings, ["the mesh has no faces"]);
-    assert!(
-        empty.warnings[0].starts_with("1 set of triangles without positions"),
-        "{:?}",
-        empty.warnings
-    );
+    let read = |name: &str, _: u64| -> std::io::Result<Vec<u8>> {
+        if name == "x/a b.bin" {
+            Ok(b"abc".to_vec())
+        } else {
+            Err(std::io::ErrorKind::NotFound.into())
+        }
+    };
+    let message = ugmesh::run(&config, &MeshFile::new("a.gltf", far).with_files(&read)).err();
+    let message = message.map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.ends_with("the mesh has no faces: it is empty"), "{message}");
 }

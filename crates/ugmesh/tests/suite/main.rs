@@ -5,6 +5,7 @@
 mod cli;
 mod common;
 mod found_files;
+mod lights;
 mod reading;
 mod round_trip;
 mod textures;

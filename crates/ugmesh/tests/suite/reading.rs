@@ -498,7 +498,13 @@ fn errors_name_the_problem_and_line() {
     }
     let old = br#"{"asset":{"version":"1.0"},"meshes":{"a":{}}}"#;
     of("a.gltf", "glTF", old, "glTF 1.0 is not read; convert the mesh to glTF 2.0");
-    of("a.gltf", "glTF", b"{}", "this is not a glTF document: it has no `asset` with a version");
+    let json = "this is JSON, but not a glTF document: it has no `asset` with a version";
+    of("a.gltf", "glTF", b"{}", json);
+    of("a", "glTF", b"{\"nodes\": []}", json);
+    obj(
+        "v 0 0 0\nv 1 0 0",
+        "the mesh has no faces, only 2 points; make a surface of the cloud first",
+    );
     gltf(&glb_with_nodes(r#"[{"mesh":7}]"#), "`meshes[7]` does not exist; export the mesh again");
     let ascii = |row: &str| {
         format!("1\nproperty float x\nproperty float y\nproperty float z\nend_header\n{row}")
@@ -517,10 +523,9 @@ fn errors_name_the_problem_and_line() {
 fn omitted_parts_are_counted() {
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (text, expected) in [
-        (points, &["the mesh has no faces"][..]),
         (
-            &format!("{points}f 1 2 3\nf 1 2 1\nl 1 2"),
-            &["1 line, point or curve is left out", "1 face without area is left out"],
+            &*format!("{points}f 1 2 3\nf 1 2 1\nl 1 2"),
+            &["1 line, point or curve is left out", "1 face without area is left out"][..],
         ),
         (&format!("{points}f 1 2 3\nf 1 1 1\nf 1 2 2"), &["2 faces without area are left out"]),
         (

@@ -14,6 +14,7 @@ use ugphysics::srgb_encode;
 use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
 use super::gltf_document::{Document, numbers, split, whole};
+use super::gltf_eyes_and_lamps::EyesAndLamps;
 use super::{Input, accessor, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
@@ -35,19 +36,21 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         n_without_positions: 0,
         input,
         textures: Textures::new(input.memory),
-        ignored: BTreeSet::new(),
+        eyes_and_lamps: EyesAndLamps::default(),
     };
     reader.scene()?;
-    let Reader { n_skipped, n_without_positions, textures, ignored, .. } = reader;
+    let Reader { n_skipped, n_without_positions, mut textures, eyes_and_lamps, .. } = reader;
+    eyes_and_lamps.finish(input, builder);
     if document.table("nodes").iter().any(|node| !node["skin"].is_null()) {
         builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
+    if !document.table("animations").is_empty() {
+        builder.warn("animations are not read: everything is at rest where its node is");
+    }
     textures.warn(builder);
-    if !ignored.is_empty() {
-        let kinds = ignored.into_iter().collect::<Vec<_>>().join(", ");
-        builder.warn(format!(
-            "only base colours are read: textures of other kinds are ignored ({kinds})"
-        ));
+    let unread = document.unread_extensions();
+    if !unread.is_empty() {
+        builder.warn(format!("extensions that are not read: {}", unread.join(", ")));
     }
     builder.warn_count(
         n_skipped,
@@ -62,25 +65,17 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
     Ok(())
 }
 
-/// The bytes of a picture within a glTF file, by its row.
-///
-/// # Errors
-/// The reason why it cannot be read.
-pub fn picture_within(bytes: &[u8], row: usize) -> Result<Vec<u8>, String> {
-    let no_files = |_: &str, _| Err(std::io::Error::other("it is in another file"));
-    let read = || {
-        let (json, blob) = split(bytes)?;
-        let document = Document::parse(json)?;
-        let image = document.row("images", row)?;
-        let input = Input { bytes, read_file: &no_files, memory: 0 };
-        if let Some(uri) = image["uri"].as_str() {
-            return load(uri, MAX_TEXTURE_BYTES, &input).map(|(bytes, _)| bytes);
-        }
-        let buffers = buffers(&document, blob, &input)?;
-        let view = whole(&image["bufferView"]).and_then(|view| document.view(view, &buffers));
-        view.map(<[u8]>::to_vec).ok_or_else(|| Problem::new("it is not in the buffers"))
-    };
-    read().map_err(|problem: Problem| problem.what)
+/// The bytes of a picture of a glTF file, by its row.
+pub(super) fn picture(input: &Input<'_>, row: usize) -> Result<Vec<u8>, Problem> {
+    let (json, blob) = split(input.bytes)?;
+    let document = Document::parse(json)?;
+    let image = document.row("images", row)?;
+    if let Some(uri) = image["uri"].as_str() {
+        return load(uri, MAX_TEXTURE_BYTES, input).map(|(bytes, _)| bytes);
+    }
+    let buffers = buffers(&document, blob, input)?;
+    let view = whole(&image["bufferView"]).and_then(|view| document.view(view, &buffers));
+    view.map(<[u8]>::to_vec).ok_or_else(|| Problem::new("it is not in the buffers"))
 }
 
 /// Largest number of bytes of all buffers, as the mesh states them.
@@ -138,23 +133,17 @@ fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<(Vec<u8>, String), 
         let damaged = |error| Problem::new(format!("a data URI is damaged: {error}"));
         return BASE64.decode(code).map(|bytes| (bytes, String::new())).map_err(damaged);
     }
-    // Some exporters write paths as Windows has them.
-    let name = percent_decoded(uri).replace('\\', "/");
+    let name = percent_decoded(uri);
     if name.contains("://") {
         return Err(Problem::new(format!(
             "`{}` is a network address; download it and refer to the file instead",
             shorten(&name)
         )));
     }
-    match (input.read_file)(&name, length) {
-        Ok(bytes) => Ok((bytes, name)),
-        Err(error) => {
-            let name = shorten(&name);
-            Err(Problem::new(format!(
-                "cannot read `{name}`: {error}; put it in the folder of the mesh"
-            )))
-        }
-    }
+    input.read_named(&name, length).map_err(|error| {
+        let name = shorten(&name);
+        Problem::new(format!("cannot read `{name}`: {error}; put it in the folder of the mesh"))
+    })
 }
 
 fn percent_decoded(uri: &str) -> String {
@@ -196,8 +185,7 @@ struct Reader<'a, 'b> {
     n_without_positions: usize,
     input: &'a Input<'a>,
     textures: Textures,
-    /// The kinds of textures that scenes do not have.
-    ignored: BTreeSet<&'static str>,
+    eyes_and_lamps: EyesAndLamps,
 }
 
 impl Reader<'_, '_> {
@@ -230,6 +218,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let scene_from_node = scene_from_parent * local_transform(node);
+            self.eyes_and_lamps.add(self.document, node, &scene_from_node)?;
             if let Some(mesh) = whole(&node["mesh"]) {
                 let mesh = self.document.row("meshes", mesh)?;
                 self.builder.name_faces(
@@ -278,6 +267,10 @@ impl Reader<'_, '_> {
         let mode = whole(&primitive["mode"]).unwrap_or(TRIANGLES);
         if !(TRIANGLES..=TRIANGLE_FAN).contains(&mode) {
             self.n_skipped += 1;
+            let others = &mut self.builder.others;
+            others.has_splats |= !primitive["extensions"]["KHR_gaussian_splatting"].is_null();
+            others.has_points |= mode == 0;
+            others.has_lines |= mode != 0;
             return Ok(());
         }
         let attributes = &primitive["attributes"];
@@ -294,6 +287,10 @@ impl Reader<'_, '_> {
             None => None,
         };
         let surface = self.surface(material);
+        self.builder.is_unlit = surface.is_unlit;
+        if !primitive["targets"].is_null() {
+            self.builder.warn_once("morph targets are not read: meshes have their base shape");
+        }
         let colors = self.colors(&attributes["COLOR_0"])?;
         let emission = surface.emission.as_ref();
         let mapped = surface.texture.as_ref().or_else(|| emission?.1.as_ref());
@@ -360,7 +357,13 @@ impl Reader<'_, '_> {
     /// The colour of a material, times the mean of its texture; white without one.
     fn surface(&mut self, material: Option<&Value>) -> Surface {
         let Some(material) = material else {
-            return Surface { factor: [1.0; 4], is_blended: false, texture: None, emission: None };
+            return Surface {
+                factor: [1.0; 4],
+                is_blended: false,
+                is_unlit: false,
+                texture: None,
+                emission: None,
+            };
         };
         let metallic = &material["pbrMetallicRoughness"];
         let glossy = &material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
@@ -369,29 +372,35 @@ impl Reader<'_, '_> {
         } else {
             (&glossy["diffuseFactor"], &glossy["diffuseTexture"])
         };
-        self.ignored.extend(ignored_textures(material, &metallic["metallicRoughnessTexture"]));
+        let roughness = &metallic["metallicRoughnessTexture"];
+        let is_unlit = !material["extensions"]["KHR_materials_unlit"].is_null();
+        if !is_unlit {
+            self.textures.ignored.extend(ignored_textures(material, roughness));
+        }
         let mut factor: [f64; 4] = numbers(factor).unwrap_or([1.0; 4]);
-        let is_blended = material["alphaMode"] == "BLEND";
+        let mut is_blended = material["alphaMode"] == "BLEND";
+        let cutoff = material["alphaCutoff"].as_f64().unwrap_or(0.5).clamp(0.0, 2.0);
         let loaded = whole(&texture["index"]).and_then(|index| Some((index, self.texture(index)?)));
         let texture = loaded.map(|(index, LoadedTexture { mean, image })| {
             let factor_of_texels =
                 factor.map(|part| if part.is_finite() { part.max(0.0) as f32 } else { 1.0 });
             let alpha = match material["alphaMode"].as_str() {
-                Some("MASK") => AlphaMode::Mask(
-                    material["alphaCutoff"].as_f64().unwrap_or(0.5).clamp(0.0, 2.0) as f32,
-                ),
+                Some("MASK") => AlphaMode::Mask(cutoff as f32),
                 Some("BLEND") => AlphaMode::Blend,
                 _ => AlphaMode::Opaque,
             };
             factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
-            let wrap = self.wrap(index);
             let none = ColorId::from_index(0);
-            let drawn =
-                Texture { wrap, factor: factor_of_texels, alpha, ..Texture::new(none, image) };
+            let sampled = self.sampled(index, Texture::new(none, image));
+            let drawn = Texture { factor: factor_of_texels, alpha, ..sampled };
             SurfaceTexture::new(drawn, mean, texture)
         });
-        let emission = self.emission(material, texture.as_ref());
-        Surface { factor, is_blended, texture, emission }
+        if texture.is_none() && material["alphaMode"] == "MASK" && factor[3] < cutoff {
+            // Without a picture, alpha is cut off everywhere or nowhere.
+            (is_blended, factor[3]) = (true, 0.0);
+        }
+        let emission = if is_unlit { None } else { self.emission(material, texture.as_ref()) };
+        Surface { factor, is_blended, is_unlit, texture, emission }
     }
 
     /// The light that a material emits: its factor, and a picture. One with other coordinates than
@@ -413,25 +422,30 @@ impl Reader<'_, '_> {
             return Some((factor, None));
         };
         let none = ColorId::from_index(0);
-        let drawn = Texture { wrap: self.wrap(index), ..Texture::new(none, image) };
+        let drawn = self.sampled(index, Texture::new(none, image));
         let texture = SurfaceTexture::new(drawn, mean, info);
         if base.is_some_and(|base| (base.set, base.transform) != (texture.set, texture.transform)) {
-            self.ignored.insert("emissive (with coordinates of their own)");
+            self.textures.ignored.insert("emissive (with coordinates of their own)");
             return Some(([0, 1, 2].map(|at| factor[at] * mean[at]), None));
         }
         Some((factor, Some(texture)))
     }
 
-    /// What is beyond the edges of a texture.
-    fn wrap(&self, index: usize) -> [Wrap; 2] {
-        let texture = self.document.table("textures").get(index);
-        let sampler = texture.and_then(|texture| whole(&texture["sampler"]));
+    /// A texture with what its sampler states: what is beyond its edges, and whether its texels are
+    /// flat squares where they are large.
+    fn sampled(&self, index: usize, texture: Texture) -> Texture {
+        let known = self.document.table("textures").get(index);
+        let sampler = known.and_then(|texture| whole(&texture["sampler"]));
         let sampler = sampler.and_then(|sampler| self.document.table("samplers").get(sampler));
-        ["wrapS", "wrapT"].map(|axis| match sampler.and_then(|sampler| whole(&sampler[axis])) {
-            Some(33071) => Wrap::Clamp,
-            Some(33648) => Wrap::Mirror,
-            _ => Wrap::Repeat,
-        })
+        let wrap = ["wrapS", "wrapT"].map(|axis| {
+            match sampler.and_then(|sampler| whole(&sampler[axis])) {
+                Some(33071) => Wrap::Clamp,
+                Some(33648) => Wrap::Mirror,
+                _ => Wrap::Repeat,
+            }
+        });
+        let filter = sampler.and_then(|sampler| whole(&sampler["magFilter"]));
+        Texture { wrap, is_nearest: filter == Some(9728), ..texture }
     }
 
     /// A texture, if it can be read.
@@ -574,6 +588,8 @@ fn transform(
 struct Surface {
     factor: [f64; 4],
     is_blended: bool,
+    /// It emits its colour, whatever lights it.
+    is_unlit: bool,
     texture: Option<SurfaceTexture>,
     /// See [`Reader::emission`].
     emission: Option<([f64; 3], Option<SurfaceTexture>)>,

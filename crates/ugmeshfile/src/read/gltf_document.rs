@@ -23,6 +23,23 @@ const HARMLESS: [&str; 8] = [
     "MSFT_texture_",
 ];
 
+/// Extensions that are read.
+const READ: [&str; 9] = [
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+    // Told with its texture, which has a picture of another kind or none.
+    "EXT_texture_webp",
+];
+
+/// The most extensions that are named in a warning.
+const MOST_NAMED: usize = 12;
+
 impl Document {
     /// Parses the JSON text of a file.
     pub fn parse(json: &[u8]) -> Result<Self, Problem> {
@@ -32,7 +49,7 @@ impl Document {
         let stated = |name: &str| asset[name].as_str();
         let version = stated("minVersion").or(stated("version"));
         let version = version.ok_or_else(|| {
-            Problem::new("this is not a glTF document: it has no `asset` with a version")
+            Problem::new("this is JSON, but not a glTF document: it has no `asset` with a version")
         })?;
         if version.split('.').next() != Some("2") {
             return Err(not_two(version));
@@ -58,6 +75,13 @@ impl Document {
                 }))
             }
         }
+    }
+
+    /// The extensions that the file uses and that are not read.
+    pub fn unread_extensions(&self) -> Vec<String> {
+        let used = self.0["extensionsUsed"].as_array().into_iter().flatten();
+        let unread = used.filter_map(Value::as_str).filter(|name| !READ.contains(name));
+        unread.take(MOST_NAMED).map(shorten).map(|name| format!("`{name}`")).collect()
     }
 
     /// The rows of a table.

@@ -1,6 +1,6 @@
 //! Reads the colours of a material library (MTL).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ugscene::shorten;
 
@@ -8,17 +8,42 @@ use super::text::any_number;
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 
-/// Diffuse and emitted colours, and their textures, by name.
+/// Materials by name.
 #[derive(Debug, Default)]
 pub(super) struct Materials {
-    pub colors: BTreeMap<String, Rgba>,
-    pub textures: BTreeMap<String, MapFile>,
-    /// Emitted colours, and their pictures.
-    pub emissions: BTreeMap<String, ([f64; 3], Option<MapFile>)>,
+    rows: BTreeMap<String, usize>,
+    list: Vec<Material>,
+    /// The kinds of their pictures that are not read.
+    pub ignored: BTreeSet<&'static str>,
+}
+
+/// Diffuse and emitted colours, opacity, and their pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Material {
+    pub color: Rgba,
+    /// `d` is stated, which overrides `Tr`.
+    has_opacity: bool,
+    pub texture: Option<MapFile>,
+    pub opacity: Option<MapFile>,
+    /// The colour that it emits, and its picture.
+    pub emitted: ([f64; 3], Option<MapFile>),
+}
+
+impl Default for Material {
+    /// The colour of a material without `Kd` is the same as in other readers.
+    fn default() -> Self {
+        Self {
+            color: Rgba([0.8, 0.8, 0.8, 1.0]),
+            has_opacity: false,
+            texture: None,
+            opacity: None,
+            emitted: ([0.0; 3], None),
+        }
+    }
 }
 
 /// A picture of a material, and where it is on a surface.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct MapFile {
     pub file: String,
     /// By which u and v are multiplied, and what is then added to them, if that is stated.
@@ -27,51 +52,93 @@ pub(super) struct MapFile {
     pub is_clamped: bool,
 }
 
+/// Statements of pictures that are not read, and their kinds.
+const IGNORED: [(&str, &str); 16] = [
+    ("map_ka", "ambient"),
+    ("map_ks", "specular"),
+    ("map_ns", "shininess"),
+    ("map_bump", "bump"),
+    ("bump", "bump"),
+    ("disp", "displacement"),
+    ("decal", "decal"),
+    ("refl", "reflection"),
+    ("map_refl", "reflection"),
+    ("norm", "normal"),
+    ("map_kn", "normal"),
+    ("map_pr", "roughness"),
+    ("map_pm", "metallic"),
+    ("map_ps", "sheen"),
+    ("map_tr", "transparency"),
+    ("map_tf", "transmission"),
+];
+
 impl Materials {
+    /// The material of this name, and its row in the order of the files.
+    pub fn get(&self, name: &str) -> Option<(usize, &Material)> {
+        let row = *self.rows.get(name)?;
+        Some((row, &self.list[row]))
+    }
+
+    /// The material in a row.
+    pub fn at(&self, row: usize) -> Option<&Material> {
+        self.list.get(row)
+    }
+
     /// Adds the materials of a file. Only diffuse and emitted colours and opacity are read.
     /// Malformed statements are ignored, since a mesh is usable without its materials.
     pub fn add(&mut self, bytes: &[u8], builder: &mut Builder) {
         let text = decode(bytes);
-        let mut current: Option<&mut Rgba> = None;
+        let mut none = Material::default();
+        let mut current: &mut Material = &mut none;
         let mut name = "";
         for line in text.lines() {
             let (keyword, rest) = split(without_comment(line));
-            let mut numbers = rest.split_whitespace().map_while(any_number);
-            match (&*keyword.to_ascii_lowercase(), &mut current) {
-                ("newmtl", _) => {
-                    let color = self.colors.entry(rest.to_string()).or_insert(UNNAMED);
-                    *color = UNNAMED;
-                    current = Some(color);
-                    name = rest;
-                    self.textures.remove(name);
-                    self.emissions.remove(name);
+            let keyword = keyword.to_ascii_lowercase();
+            if keyword == "newmtl" {
+                name = rest;
+                let row = *self.rows.entry(rest.to_owned()).or_insert(self.list.len());
+                if row == self.list.len() {
+                    self.list.push(Material::default());
                 }
-                ("kd", Some(color)) => {
-                    if let Some(red) = numbers.next() {
-                        // Missing components equal the first.
-                        let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
-                        color.0[..3].copy_from_slice(&[red, green, blue]);
-                    } else {
+                current = &mut self.list[row];
+                *current = Material::default();
+                continue;
+            }
+            let mut numbers = rest.split_whitespace().map_while(any_number);
+            let mut color = || {
+                let red = numbers.next()?;
+                // Missing components equal the first.
+                let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
+                Some([red, green, blue]).filter(|color| !color.iter().any(|part| part.is_nan()))
+            };
+            let map = (!rest.is_empty()).then(|| file_of_map(rest));
+            match &*keyword {
+                "kd" => match color() {
+                    Some(color) => current.color.0[..3].copy_from_slice(&color),
+                    None => {
                         let (name, kind) = (shorten(name), shorten(rest));
                         builder.warn(format!(
                             "the colour of material `{name}` is not read: `Kd {kind}`"
                         ));
                     }
+                },
+                "d" | "tr" => {
+                    let number = numbers.next().filter(|number| !number.is_nan());
+                    let Some(number) = number else { continue };
+                    if keyword == "d" {
+                        (current.color.0[3], current.has_opacity) = (number, true);
+                    } else if !current.has_opacity {
+                        current.color.0[3] = 1.0 - number;
+                    }
                 }
-                ("d", Some(color)) => numbers.take(1).for_each(|opacity| color.0[3] = opacity),
-                ("tr", Some(color)) => numbers.take(1).for_each(|clear| color.0[3] = 1.0 - clear),
-                ("map_kd", Some(_)) if !rest.is_empty() => {
-                    self.textures.insert(name.to_owned(), file_of_map(rest));
+                "ke" => current.emitted.0 = color().unwrap_or_default(),
+                "map_kd" => current.texture = map.or(current.texture.take()),
+                "map_d" => current.opacity = map.or(current.opacity.take()),
+                "map_ke" => current.emitted.1 = map.or(current.emitted.1.take()),
+                _ => {
+                    let known = IGNORED.iter().find(|(known, _)| *known == keyword);
+                    self.ignored.extend(known.filter(|_| map.is_some()).map(|(_, kind)| kind));
                 }
-                ("ke", Some(_)) => {
-                    let red = numbers.next().unwrap_or(0.0);
-                    let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
-                    self.emissions.entry(name.to_owned()).or_default().0 = [red, green, blue];
-                }
-                ("map_ke", Some(_)) if !rest.is_empty() => {
-                    self.emissions.entry(name.to_owned()).or_default().1 = Some(file_of_map(rest));
-                }
-                _ => {}
             }
         }
     }
@@ -116,9 +183,6 @@ fn file_of_map(mut rest: &str) -> MapFile {
     rest.clone_into(&mut map.file);
     map
 }
-
-/// The colour of a material without `Kd`, the same as in other readers.
-const UNNAMED: Rgba = Rgba([0.8, 0.8, 0.8, 1.0]);
 
 /// The keyword of a line, and the trimmed rest.
 pub(super) fn split(line: &str) -> (&str, &str) {

@@ -5,7 +5,6 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::io;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -13,13 +12,14 @@ use ugphysics::srgb_decode;
 use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
 use super::Input;
-use super::mtl::{self, MapFile, Materials, without_comment};
-use super::text::{any_number, numbers};
+use super::corners::CornerSplitter;
+use super::mtl::{self, MapFile, Material, Materials, without_comment};
+use super::text::{any_number, not_a_number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
 use crate::foreign::by_content;
-use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures, tinted};
+use crate::textures::{LoadedTexture, TextureOrigin, Textures, tinted, with_opacity};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let text = decode(input.bytes);
@@ -39,6 +39,24 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         reader.statement(line, without_comment(statement)).map_err(at_line)?;
     }
     reader.finish()
+}
+
+/// The picture with the colours and the opacity of the material in a row of those that an OBJ file
+/// names.
+pub(super) fn picture(input: &Input<'_>, row: usize) -> Result<Vec<u8>, Problem> {
+    let text = decode(input.bytes);
+    let mut builder = Builder::default();
+    let mut reader = Reader::new(input, &mut builder);
+    for (_, statement) in statements(&text) {
+        let (keyword, rest) = mtl::split(without_comment(&statement));
+        if keyword == "mtllib" {
+            reader.load_materials(rest)?;
+        }
+    }
+    let none = || Problem::new("it has no material with such a picture");
+    let Material { texture, opacity, .. } = reader.materials.at(row).ok_or_else(none)?;
+    let opacity = opacity.as_ref().ok_or_else(none)?;
+    with_opacity(input, texture.as_ref().map(|map| &*map.file), &opacity.file).map_err(Problem::new)
 }
 
 /// The lines with their numbers. A backslash at the end of a line continues it on the next.
@@ -136,7 +154,10 @@ impl<'a> Reader<'a> {
             "vn" => self.normal(rest)?,
             "vt" => self.uv(rest),
             "f" | "fo" => self.face(rest)?,
-            "l" | "p" | "curv" | "curv2" | "surf" => self.n_skipped += 1,
+            "l" | "p" | "curv" | "curv2" | "surf" => {
+                self.n_skipped += 1;
+                self.builder.others.has_lines |= keyword != "p";
+            }
             "mtllib" => self.load_materials(rest)?,
             "usemtl" => self.use_material(rest),
             "o" => {
@@ -160,11 +181,7 @@ impl<'a> Reader<'a> {
         let position = numbers::<3>(&mut words, line, "vertex")?;
         let has_color = words.clone().count() >= 3;
         self.has_vertex_colors |= has_color;
-        let color = if has_color {
-            Some(Rgba::opaque(numbers(&mut words, line, "vertex colour")?))
-        } else {
-            None
-        };
+        let color = if has_color { Some(vertex_color(&mut words, line)?) } else { None };
         self.builder.vertex(DVec3::from_array(position), None, color)?;
         Ok(())
     }
@@ -227,11 +244,11 @@ impl<'a> Reader<'a> {
         if !self.libraries.insert(rest.to_owned()) {
             return Ok(());
         }
-        if let Ok((bytes, _)) = read_named(self.input, rest, self.material_room + 1) {
+        if let Ok((bytes, _)) = self.input.read_named(rest, self.material_room + 1) {
             return self.add_materials(rest, &bytes);
         }
         for name in rest.split_whitespace() {
-            match read_named(self.input, name, self.material_room + 1) {
+            match self.input.read_named(name, self.material_room + 1) {
                 Ok((bytes, _)) => self.add_materials(name, &bytes)?,
                 Err(error) => {
                     self.builder.warn(format!(
@@ -259,67 +276,90 @@ impl<'a> Reader<'a> {
     }
 
     fn use_material(&mut self, name: &str) {
-        let known = self.materials.colors.get(name).copied();
-        if known.is_none() {
+        let Some((row, material)) = self.materials.get(name) else {
             self.unknown_materials.insert(name.to_string());
+            self.color = None;
+            return;
+        };
+        let material = material.clone();
+        let mut color = material.color;
+        let emitted = self.emitted(&material, name);
+        let (loaded, mode) = self.pictures(&material, row, name);
+        // Exporters write so where the texture alone has the colour.
+        if material.texture.is_some() && color.0[..3] == [0.0; 3] {
+            self.builder.warn(format!(
+                "material `{}` is black and has a texture, which alone colours its faces",
+                shorten(name)
+            ));
+            color = Rgba([1.0, 1.0, 1.0, color.0[3]]);
         }
-        let map = self.materials.textures.get(name).cloned().unwrap_or_default();
-        let emitted = self.emitted(name);
-        self.color = known.map(|mut color| {
-            let loaded = Some(&map.file).filter(|file| !file.is_empty()).and_then(|file| {
-                let loaded = self.texture(file);
-                // Exporters write so where the texture alone has the colour.
-                if color.0[..3] == [0.0; 3] {
-                    self.builder.warn(format!(
-                        "material `{}` is black and has a texture, which alone colours its faces",
-                        shorten(name)
-                    ));
-                    color = Rgba([1.0, 1.0, 1.0, color.0[3]]);
-                }
-                loaded
-            });
-            let texture = loaded.as_ref().map(|LoadedTexture { image, .. }| {
-                let [red, green, blue, alpha] = color.0;
-                let factor = [red, green, blue].map(|part| srgb_decode(part.clamp(0.0, 1.0)));
-                let [red, green, blue, alpha] =
-                    [factor[0], factor[1], factor[2], alpha.clamp(0.0, 1.0)];
-                let factor = [red, green, blue, alpha]
-                    .map(|part| if part.is_nan() { 0.0 } else { part as f32 });
-                let mode = if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
-                let wrap = [if map.is_clamped { Wrap::Clamp } else { Wrap::Repeat }; 2];
-                Texture {
-                    factor,
-                    wrap,
-                    alpha: mode,
-                    ..Texture::new(ColorId::from_index(0), image.clone())
-                }
-            });
-            let tinted = loaded.map_or(color, |LoadedTexture { mean, .. }| tinted(color, mean));
-            let id = self.builder.material(tinted, name, texture, emitted);
-            self.placements.extend(map.placement.map(|placement| (id, placement)));
-            id
+        let map = material.texture.or(material.opacity).unwrap_or_default();
+        let texture = loaded.as_ref().map(|LoadedTexture { image, .. }| {
+            let [red, green, blue, alpha] = color.0;
+            let factor = [red, green, blue].map(|part| srgb_decode(part.clamp(0.0, 1.0)) as f32);
+            let wrap = [if map.is_clamped { Wrap::Clamp } else { Wrap::Repeat }; 2];
+            Texture {
+                factor: [factor[0], factor[1], factor[2], alpha.clamp(0.0, 1.0) as f32],
+                wrap,
+                alpha: if alpha < 1.0 { AlphaMode::Blend } else { mode },
+                ..Texture::new(ColorId::from_index(0), image.clone())
+            }
         });
+        let tinted = loaded.map_or(color, |LoadedTexture { mean, .. }| tinted(color, mean));
+        let id = self.builder.material(tinted, name, texture, emitted);
+        self.placements.extend(map.placement.map(|placement| (id, placement)));
+        self.color = Some(id);
+    }
+
+    /// The picture of a material, with its opacity.
+    fn pictures(
+        &mut self,
+        material: &Material,
+        row: usize,
+        name: &str,
+    ) -> (Option<LoadedTexture>, AlphaMode) {
+        let (texture, Some(opacity)) = (&material.texture, &material.opacity) else {
+            let file = material.texture.as_ref().map(|map| &map.file);
+            return (file.and_then(|file| self.texture(file)), AlphaMode::Opaque);
+        };
+        let plain = texture.as_ref().and_then(|map| self.texture(&map.file));
+        match texture {
+            // Of one picture, alpha is the opacity.
+            Some(map) if map.file == opacity.file => return (plain, AlphaMode::Blend),
+            Some(map) if map.placement != opacity.placement => {
+                self.builder.warn(format!(
+                    "`map_d` of material `{}` is not read, since it is placed otherwise than `map_Kd`",
+                    shorten(name)
+                ));
+                return (plain, AlphaMode::Opaque);
+            }
+            _ => {}
+        }
+        let input = self.input;
+        let base = texture.as_ref().filter(|_| plain.is_some()).map(|map| &*map.file);
+        let key = format!("{} {}", base.unwrap_or_default(), opacity.file);
+        let load = || Ok((with_opacity(input, base, &opacity.file)?, TextureOrigin::Within(row)));
+        match self.textures.load(key.trim_start(), load) {
+            Some(both) => (Some(both), AlphaMode::Blend),
+            None => (plain, AlphaMode::Opaque),
+        }
     }
 
     /// The colour that a material emits, whose factor is display-encoded up to 1.
-    fn emitted(&mut self, name: &str) -> Option<ColorId> {
-        let (factor, file) = self.materials.emissions.get(name)?.clone();
-        let picture = file.and_then(|MapFile { file, .. }| self.texture(&file));
+    fn emitted(&mut self, material: &Material, name: &str) -> Option<ColorId> {
+        let (factor, file) = &material.emitted;
+        let picture = file.as_ref().and_then(|MapFile { file, .. }| self.texture(file));
         let picture = picture.map(|it| (Texture::new(ColorId::from_index(0), it.image), it.mean));
         // Exporters write black where the texture alone has the colour.
-        let is_bare = picture.is_some() && factor == [0.0; 3];
-        let factor = if is_bare { [1.0; 3] } else { factor };
+        let is_bare = picture.is_some() && *factor == [0.0; 3];
+        let factor = if is_bare { [1.0; 3] } else { *factor };
         let scale = factor.into_iter().fold(1.0, f64::max);
         self.builder.emitted(factor.map(|part| scale * srgb_decode(part / scale)), name, picture)
     }
 
     fn texture(&mut self, file: &str) -> Option<LoadedTexture> {
-        let load = || {
-            let read = read_named(self.input, file, MAX_TEXTURE_BYTES);
-            read.map(|(bytes, name)| (bytes, TextureOrigin::File(name)))
-                .map_err(|error| error.to_string())
-        };
-        self.textures.load(file, load)
+        let input = self.input;
+        self.textures.load(file, || input.read_picture(file))
     }
 
     /// Builds the faces, after all vertices have been read.
@@ -375,6 +415,7 @@ impl<'a> Reader<'a> {
             let more = if self.unknown_materials.len() > names.len() { ", …" } else { "" };
             self.builder.warn(format!("materials without colour: {}{more}", names.join(", ")));
         }
+        self.textures.ignored.append(&mut self.materials.ignored);
         self.textures.warn(self.builder);
         self.builder.warn_count(
             self.n_without_normal,
@@ -389,17 +430,17 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Reads a file that the mesh names, perhaps by a path of another machine: then it is searched for
-/// in the folder of the mesh. Returns the name by which it was found as well.
-fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<(Vec<u8>, String)> {
-    let name = name.trim_matches('"').replace('\\', "/");
-    match ((input.read_file)(&name, limit), name.rsplit_once('/')) {
-        (Ok(bytes), _) => Ok((bytes, name)),
-        (Err(error), Some((_, last))) => {
-            (input.read_file)(last, limit).map(|bytes| (bytes, last.to_owned())).map_err(|_| error)
-        }
-        (Err(error), None) => Err(error),
+/// Three numbers, of which any may be NaN.
+fn vertex_color<'t>(
+    words: &mut impl Iterator<Item = &'t str>,
+    line: usize,
+) -> Result<Rgba, Problem> {
+    let mut color = [0.0; 3];
+    for (part, word) in color.iter_mut().zip(words) {
+        let what = "in a vertex colour is not a number";
+        *part = any_number(word).ok_or_else(|| not_a_number(word, line, what))?;
     }
+    Ok(Rgba::opaque(color))
 }
 
 /// A corner of a face.
@@ -410,50 +451,6 @@ struct Corner {
     uv: Option<u32>,
     /// Row of the normals.
     normal: Option<u32>,
-}
-
-/// The bits of a normal and of texture coordinates, by which equal ones with different indices are
-/// identified.
-type CornerBits = (Option<[u64; 3]>, Option<[u32; 2]>);
-
-/// Splits a vertex with several normals or texture coordinates into several vertices. The vertex of
-/// the file gets the first of them, so that vertices keep their order; the copies are appended at
-/// the end.
-struct CornerSplitter {
-    first: Vec<Option<CornerBits>>,
-    copies: FxHashMap<(VertexId, CornerBits), VertexId>,
-}
-
-impl CornerSplitter {
-    fn new(n_vertices: usize) -> Self {
-        Self { first: vec![None; n_vertices], copies: FxHashMap::default() }
-    }
-
-    /// The vertex with these at the position of `vertex`.
-    fn vertex(
-        &mut self,
-        builder: &mut Builder,
-        vertex: VertexId,
-        normal: Option<DVec3>,
-        uv: Option<[f32; 2]>,
-    ) -> Result<VertexId, Problem> {
-        let bits =
-            (normal.map(|n| n.to_array().map(f64::to_bits)), uv.map(|uv| uv.map(f32::to_bits)));
-        let first = self.first[vertex.index()].get_or_insert_with(|| {
-            builder.set_normal(vertex, normal);
-            builder.set_uv(vertex, uv);
-            bits
-        });
-        if *first == bits {
-            return Ok(vertex);
-        }
-        if let Some(&copy) = self.copies.get(&(vertex, bits)) {
-            return Ok(copy);
-        }
-        let copy = builder.copy(vertex, normal, uv)?;
-        self.copies.insert((vertex, bits), copy);
-        Ok(copy)
-    }
 }
 
 /// The row, counted from 0, for an index counted from 1, or backwards from −1.

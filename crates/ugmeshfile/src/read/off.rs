@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugscene::shorten;
 
 use super::GOES_ON;
-use super::text::{Words, number, numbers};
+use super::text::{Words, any_number, not_a_number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
@@ -14,6 +14,9 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let text = decode(bytes);
     let mut words = Words::new(&text);
     let (kind, [n_vertices, n_faces]) = read_head(&mut words)?;
+    if kind.has_texture {
+        builder.warn("texture coordinates are not read, since OFF names no picture");
+    }
     let lines =
         text.lines().skip(words.line).map(|line| line.split('#').next().unwrap_or_default().trim());
     let lines = lines.filter(|line| !line.is_empty());
@@ -41,6 +44,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
 struct Layout {
     has_normal: bool,
     has_color: bool,
+    has_texture: bool,
     /// There are lines enough for each vertex and face to have its own, so what is left of a line
     /// is a colour, or has no meaning.
     has_lines: bool,
@@ -68,7 +72,8 @@ fn has_real_colors<'t>(
 }
 
 fn is_real(word: &str) -> bool {
-    !word.bytes().all(|byte| byte.is_ascii_digit())
+    let is_nan = || any_number(word).is_some_and(f64::is_nan);
+    !word.bytes().all(|byte| byte.is_ascii_digit()) && !is_nan()
 }
 
 fn ends_early(announced: u64, what: &str, n_read: u64) -> Problem {
@@ -94,8 +99,12 @@ fn read_head(words: &mut Words<'_>) -> Result<(Layout, [u64; 2]), Problem> {
         }
         // `STOFF` has no normals, `ST` is for texture.
         let letters = keyword.trim_start_matches("ST");
-        kind =
-            Layout { has_normal: letters.contains('N'), has_color: letters.contains('C'), ..kind };
+        kind = Layout {
+            has_normal: letters.contains('N'),
+            has_color: letters.contains('C'),
+            has_texture: letters.len() < keyword.len(),
+            ..kind
+        };
         first = if glued.is_empty() { words.next().ok_or_else(nothing)? } else { glued };
     }
     let line = words.line;
@@ -158,7 +167,7 @@ fn read_face(
         corners.push(corner);
     }
     let rest = if layout.has_lines { words.rest_of_line() } else { "".split_whitespace() };
-    let color = color(rest, words.line, layout)?.map(|color| builder.color(color));
+    let color = color(rest, words.line, layout)?.and_then(|color| builder.color(color));
     builder.line = u32::try_from(line).unwrap_or(u32::MAX);
     builder.face(&corners, color)
 }
@@ -174,7 +183,8 @@ fn color<'w>(
     let words: Vec<&str> = words.take(4).collect();
     let mut parts = Vec::with_capacity(4);
     for word in &words {
-        parts.push(number(word, line, "colour")?);
+        let what = "in a colour is not a number";
+        parts.push(any_number(word).ok_or_else(|| not_a_number(word, line, what))?);
     }
     let is_real =
         words.into_iter().any(is_real) || layout.is_real && parts.iter().all(|&part| part <= 1.0);

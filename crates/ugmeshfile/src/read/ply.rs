@@ -1,26 +1,31 @@
-//! Reads Stanford PLY: vertices, faces and triangle strips, in all three encodings.
+//! Reads Stanford PLY: vertices, faces and triangle strips, in all three encodings; textures as
+//! MeshLab and scanners state them, by a comment `TextureFile` and coordinates of vertices
+//! (`texture_u`, `texture_v`; `s`, `t`; `u`, `v`) or of the corners of faces (`texcoord`).
 //!
 //! Not with a crate, because the available one refuses numbers such as `.5` and `nan` in text, and
 //! keeps every row of every element in memory.
 
 use glam::DVec3;
-use ugscene::{VertexId, shorten};
+use ugscene::{ColorId, Texture, VertexId, shorten};
 
+use super::corners::CornerSplitter;
 use super::kind::Kind;
 use super::text::{any_number, not_a_number};
-use super::{GOES_ON, strip};
+use super::{GOES_ON, Input, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
+use crate::textures::{LoadedTexture, Textures, tinted};
 
-pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
-    let (elements, mut body) = read_header(bytes, builder)?;
+pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
+    let Header { elements, mut body, pictures } = read_header(input.bytes, builder)?;
     let vertex = elements.iter().find(|element| element.name == "vertex");
     let vertex = vertex.ok_or_else(|| Problem::new("the element `vertex` is missing"))?;
-    let has =
-        |slot: usize| vertex.properties.iter().any(|property| property.role == Role::Number(slot));
-    if let Some(slot) = (0..3).find(|&slot| !has(slot)) {
+    if let Some(slot) = (0..3).find(|&slot| !vertex.has(Role::Number(slot))) {
         return Err(Problem::new(format!("vertices have no property `{}`", NUMBERS[slot])));
     }
+    let is_splat = |name: &str| vertex.properties.iter().any(|property| property.name == name);
+    builder.others.has_splats = is_splat("f_dc_0") && is_splat("scale_0");
+    let mut rows = Rows::new(input, &elements, &pictures, builder);
     // Faces before the vertices are read after them.
     let mut postponed = Vec::new();
     let mut is_ahead = true;
@@ -29,10 +34,10 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
         if is_ahead {
             postponed.push((element, body.clone()));
         }
-        read_element(element, &mut body, is_ahead, builder)?;
+        read_element(element, &mut body, is_ahead, &mut rows, builder)?;
     }
     for (element, mut body) in postponed {
-        read_element(element, &mut body, false, builder)?;
+        read_element(element, &mut body, false, &mut rows, builder)?;
     }
     if !body.bytes[body.at..].trim_ascii().is_empty() {
         builder.warn(GOES_ON.to_owned());
@@ -41,19 +46,42 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
 }
 
 /// The numbers of vertices and faces that are used here.
-const NUMBERS: [&str; 10] = ["x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"];
+const NUMBERS: [&str; 13] = [
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "red",
+    "green",
+    "blue",
+    "alpha",
+    "texture_u",
+    "texture_v",
+    "texnumber",
+];
 
-/// The first colour in [`NUMBERS`].
+/// The first colour in [`NUMBERS`], and alpha, the last.
 const RED: usize = 6;
+const ALPHA: usize = 9;
+/// The first texture coordinate.
+const TEXTURE_U: usize = 10;
 
-/// Alternative names of colours.
-const ALIASES: [(&str, &str); 6] = [
+/// Alternative names.
+const ALIASES: [(&str, &str); 12] = [
     ("diffuse_red", "red"),
     ("diffuse_green", "green"),
     ("diffuse_blue", "blue"),
     ("r", "red"),
     ("g", "green"),
     ("b", "blue"),
+    ("s", "texture_u"),
+    ("t", "texture_v"),
+    ("u", "texture_u"),
+    ("v", "texture_v"),
+    ("texture_s", "texture_u"),
+    ("texture_t", "texture_v"),
 ];
 
 fn kind(word: &str) -> Option<Kind> {
@@ -75,6 +103,8 @@ enum Role {
     /// A row of [`NUMBERS`].
     Number(usize),
     Corners,
+    /// Texture coordinates of corners, u and v of each.
+    TextureCorners,
     Ignored,
 }
 
@@ -90,6 +120,23 @@ struct Element {
     name: String,
     count: usize,
     properties: Vec<Property>,
+}
+
+impl Element {
+    fn has(&self, role: Role) -> bool {
+        self.properties.iter().any(|property| property.role == role)
+    }
+
+    fn has_color(&self) -> bool {
+        (RED..RED + 3).all(|slot| self.has(Role::Number(slot)))
+    }
+}
+
+struct Header<'a> {
+    elements: Vec<Element>,
+    body: Body<'a>,
+    /// The files of textures.
+    pictures: Vec<String>,
 }
 
 /// The rows of a file that are not yet read.
@@ -109,13 +156,11 @@ fn next_line(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((&bytes[..len], &bytes[after..]))
 }
 
-fn read_header<'a>(
-    bytes: &'a [u8],
-    builder: &mut Builder,
-) -> Result<(Vec<Element>, Body<'a>), Problem> {
+fn read_header<'a>(bytes: &'a [u8], builder: &mut Builder) -> Result<Header<'a>, Problem> {
     let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut elements: Vec<Element> = Vec::new();
     let mut format = None;
+    let mut pictures = Vec::new();
     for line in 1.. {
         let (text, after) = next_line(rest)
             .ok_or_else(|| Problem::at(line, "the header has no line `end_header`"))?;
@@ -127,8 +172,13 @@ fn read_header<'a>(
         match (words.next(), words.next()) {
             (Some("ply"), None) if line == 1 => {}
             _ if line == 1 => return Err(Problem::at(1, "a PLY file begins with the line `ply`")),
-            (Some("comment"), _) => {
-                builder.comment(text.trim_start().strip_prefix("comment").unwrap_or_default());
+            (Some("comment"), word) => {
+                let comment = text.trim_start().strip_prefix("comment").unwrap_or_default();
+                builder.comment(comment);
+                if word == Some("TextureFile") {
+                    let name = comment.trim_start().strip_prefix("TextureFile");
+                    pictures.push(name.unwrap_or_default().trim().to_owned());
+                }
             }
             (Some("obj_info") | None, _) => {}
             (
@@ -166,7 +216,7 @@ fn read_header<'a>(
                     line: is_text.then_some(line + 1),
                     is_little_endian,
                 };
-                return Ok((elements, body));
+                return Ok(Header { elements, body, pictures });
             }
             _ => return Err(bad()),
         }
@@ -176,10 +226,10 @@ fn read_header<'a>(
 
 fn role(name: &str, length: Option<Kind>) -> Role {
     if length.is_some() {
-        return if matches!(name, "vertex_indices" | "vertex_index") {
-            Role::Corners
-        } else {
-            Role::Ignored
+        return match name {
+            "vertex_indices" | "vertex_index" => Role::Corners,
+            "texcoord" => Role::TextureCorners,
+            _ => Role::Ignored,
         };
     }
     let name = ALIASES.iter().find(|(alias, _)| *alias == name).map_or(name, |(_, name)| name);
@@ -205,12 +255,16 @@ fn read_element(
     element: &Element,
     body: &mut Body<'_>,
     is_skipped: bool,
+    rows: &mut Rows,
     builder: &mut Builder,
 ) -> Result<(), Problem> {
-    let mut corners = Vec::new();
+    let has_color = element.has_color();
+    let mut read = Row { numbers: [f64::NAN; NUMBERS.len()], corners: Vec::new(), uvs: Vec::new() };
     for row in 0..element.count {
-        let mut numbers = [f64::NAN; NUMBERS.len()];
+        let Row { numbers, corners, uvs } = &mut read;
+        *numbers = [f64::NAN; NUMBERS.len()];
         corners.clear();
+        uvs.clear();
         for property in &element.properties {
             let place = |problem: Problem| Problem {
                 what: format!(
@@ -227,7 +281,8 @@ fn read_element(
                     let number = body.number(property.kind).map_err(place)?;
                     if let Role::Number(slot) = property.role {
                         // Integer colours use the full range of their type.
-                        let full = if slot >= RED { property.kind.full() } else { 1.0 };
+                        let is_color = (RED..=ALPHA).contains(&slot);
+                        let full = if is_color { property.kind.full() } else { 1.0 };
                         numbers[slot] = number / full;
                     }
                 }
@@ -235,8 +290,10 @@ fn read_element(
                     let length = body.number(length).map_err(place)?;
                     for _ in 0..length.max(0.0) as u64 {
                         let number = body.number(property.kind).map_err(place)?;
-                        if property.role == Role::Corners {
-                            corners.push(number as i64);
+                        match property.role {
+                            Role::Corners => corners.push(number as i64),
+                            Role::TextureCorners => uvs.push(number),
+                            Role::Number(_) | Role::Ignored => {}
                         }
                     }
                 }
@@ -245,42 +302,145 @@ fn read_element(
         builder.line = body.line.map_or(0, |line| u32::try_from(line).unwrap_or(u32::MAX));
         let at_line = |problem: Problem| Problem { line: body.line, ..problem };
         if !is_skipped {
-            add_row(&element.name, &numbers, &corners, builder).map_err(at_line)?;
+            rows.add(&element.name, &read, has_color, builder).map_err(at_line)?;
         }
     }
     Ok(())
 }
 
-fn add_row(
-    name: &str,
-    numbers: &[f64; 10],
-    corners: &[i64],
-    builder: &mut Builder,
-) -> Result<(), Problem> {
-    let [x, y, z, nx, ny, nz, red, green, blue, alpha] = *numbers;
-    let alpha = if alpha.is_nan() { 1.0 } else { alpha };
-    let color = (!(red + green + blue).is_nan()).then_some(Rgba([red, green, blue, alpha]));
-    match name {
-        "vertex" => {
-            builder.vertex(DVec3::new(x, y, z), Some(DVec3::new(nx, ny, nz)), color)?;
+/// A row of an element.
+struct Row {
+    numbers: [f64; NUMBERS.len()],
+    corners: Vec<i64>,
+    /// u and v of each corner; empty without.
+    uvs: Vec<f64>,
+}
+
+/// What rows become.
+struct Rows {
+    /// The colours of faces with a texture, by the number of the texture; `None` if its picture
+    /// cannot be read.
+    textures: Vec<Option<ColorId>>,
+    /// Divides vertices with several texture coordinates.
+    splitter: Option<CornerSplitter>,
+}
+
+impl Rows {
+    /// Reads the textures, and tells what is not read.
+    fn new(
+        input: &Input<'_>,
+        elements: &[Element],
+        pictures: &[String],
+        builder: &mut Builder,
+    ) -> Self {
+        let has = |role| elements.iter().any(|element| element.has(role));
+        let has_uvs = has(Role::TextureCorners)
+            || has(Role::Number(TEXTURE_U)) && has(Role::Number(TEXTURE_U + 1));
+        let mut textures = Textures::new(input.memory);
+        let loaded: Vec<Option<LoadedTexture>> = pictures
+            .iter()
+            .filter(|_| has_uvs)
+            .map(|name| textures.load(name, || input.read_picture(name)))
+            .collect();
+        textures.warn(builder);
+        let mut color = |texture: LoadedTexture| {
+            let LoadedTexture { mean, image } = texture;
+            let color = tinted(Rgba::opaque([1.0; 3]), mean);
+            let texture = Texture::new(ColorId::from_index(0), image);
+            builder.material(color, "", Some(texture), None)
+        };
+        let textures: Vec<_> = loaded.into_iter().map(|texture| texture.map(&mut color)).collect();
+        if has_uvs && pictures.is_empty() {
+            builder.warn(
+                "texture coordinates are not read, since no `comment TextureFile` names a picture",
+            );
+        } else if !pictures.is_empty() && !has_uvs {
+            let name = shorten(&pictures[0]);
+            builder.warn(format!("texture `{name}` is not read: there are no coordinates"));
         }
-        "face" => {
-            let corners = vertices(builder, corners)?;
-            let color = color.map(|color| builder.color(color));
-            builder.face(&corners, color)?;
+        if textures.iter().any(Option::is_some) && elements.iter().any(Element::has_color) {
+            builder.warn("colours of vertices and faces are not read, since there is a texture");
         }
-        "tristrips" => {
-            // −1 ends a strip.
-            for corners in corners.split(|&idx| idx < 0) {
-                let corners = vertices(builder, corners)?;
-                for [a, b, c] in strip(corners.len()) {
-                    builder.face(&[corners[a], corners[b], corners[c]], None)?;
+        let is_read = |name: &str| matches!(name, "vertex" | "face" | "tristrips");
+        let unread = elements.iter().filter(|it| it.count > 0 && !is_read(&it.name));
+        let unread: Vec<_> = unread.take(5).map(|it| format!("`{}`", shorten(&it.name))).collect();
+        if !unread.is_empty() {
+            builder.warn(format!("elements that are not read: {}", unread.join(", ")));
+        }
+        Self { textures, splitter: None }
+    }
+
+    fn add(
+        &mut self,
+        name: &str,
+        row: &Row,
+        has_color: bool,
+        builder: &mut Builder,
+    ) -> Result<(), Problem> {
+        let [x, y, z, nx, ny, nz, red, green, blue, alpha, u, v, texture] = row.numbers;
+        let alpha = if alpha.is_nan() { 1.0 } else { alpha };
+        let has_texture = self.textures.iter().any(Option::is_some);
+        let color = (has_color && !has_texture).then_some(Rgba([red, green, blue, alpha]));
+        match name {
+            "vertex" => {
+                let normal = DVec3::new(nx, ny, nz);
+                let vertex = builder.vertex(DVec3::new(x, y, z), Some(normal), color)?;
+                if has_texture {
+                    builder.set_uv(vertex, Some(placed([u, v])));
                 }
             }
+            "face" => {
+                let mut corners = vertices(builder, &row.corners)?;
+                let texture = self.texture(texture);
+                if texture.is_some() && row.uvs.len() == 2 * corners.len() {
+                    self.divide(&mut corners, &row.uvs, builder)?;
+                }
+                let color = texture.or_else(|| color.and_then(|color| builder.color(color)));
+                builder.face(&corners, color)?;
+            }
+            "tristrips" => {
+                let color = self.texture(texture);
+                // −1 ends a strip.
+                for corners in row.corners.split(|&idx| idx < 0) {
+                    let corners = vertices(builder, corners)?;
+                    for [a, b, c] in strip(corners.len()) {
+                        builder.face(&[corners[a], corners[b], corners[c]], color)?;
+                    }
+                }
+            }
+            _ => {}
         }
-        _ => {}
+        Ok(())
     }
-    Ok(())
+
+    /// The colour of a face with the texture of this number, by default the first.
+    fn texture(&self, number: f64) -> Option<ColorId> {
+        let row = if number.is_nan() { 0.0 } else { number };
+        let row = (row >= 0.0 && row.fract() == 0.0).then_some(row as usize)?;
+        *self.textures.get(row)?
+    }
+
+    /// Replaces corners by vertices with their texture coordinates.
+    fn divide(
+        &mut self,
+        corners: &mut [VertexId],
+        uvs: &[f64],
+        builder: &mut Builder,
+    ) -> Result<(), Problem> {
+        let n_vertices = builder.n_vertices();
+        let splitter = self.splitter.get_or_insert_with(|| CornerSplitter::new(n_vertices));
+        for (corner, uv) in corners.iter_mut().zip(uvs.as_chunks::<2>().0) {
+            let normal = builder.scene().vertices[corner.index()].normal;
+            let uv = placed(*uv);
+            *corner = splitter.vertex(builder, *corner, normal, Some(uv))?;
+        }
+        Ok(())
+    }
+}
+
+/// Texture coordinates with v downwards.
+fn placed([u, v]: [f64; 2]) -> [f32; 2] {
+    [u as f32, (1.0 - v) as f32]
 }
 
 fn vertices(builder: &Builder, corners: &[i64]) -> Result<Vec<VertexId>, Problem> {

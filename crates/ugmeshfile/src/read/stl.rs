@@ -67,6 +67,14 @@ fn read_binary(bytes: &[u8], merged: &mut MergedVertices) -> Result<(), Problem>
             "{declared} triangles are declared, and all {available} of the file are read"
         ));
     }
+    // Two conventions: colours by a word in the header, or by the highest bit of the last two bytes.
+    let is_colored = |triangle: &[u8]| triangle[49] & 0x80 != 0;
+    let has_word = header.windows(6).any(|window| window == b"COLOR=");
+    if has_word || available > 0 && triangles.chunks_exact(50).all(is_colored) {
+        merged
+            .builder
+            .warn("colours of triangles are not read, since STL has no standard for them");
+    }
     for triangle in triangles.chunks_exact(50) {
         let corner = |first: usize| {
             [0, 4, 8].map(|offset| f64::from(f32::from_bits(u32_at(triangle, first + offset))))

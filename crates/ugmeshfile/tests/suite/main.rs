@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod parts;
+
 use glam::DVec3;
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugmeshfile::{Axis, MeshFormat, from_z_up, read, to_z_up};
@@ -23,6 +25,20 @@ fn meshes_are_told_from_scenes() {
     check("<stdin>", b"v 0 0 0\nv 1 0 0\n", Some(MeshFormat::Obj));
     check("ship.ug", b"ply\nformat ascii 1.0\ncomment a; b\n", Some(MeshFormat::Ply));
     check("a.gltf", b"{\"asset\": {}, \"uri\": \"data:a;base64,\"}", Some(MeshFormat::Gltf));
+    check("a.gltf", b"v a 0 0 0;", Some(MeshFormat::Gltf));
+    check("a.glb", b"", Some(MeshFormat::Gltf));
+    // JSON is no comment, wherever its keys are, and whether it is glTF or not.
+    let late = format!("{{\"accessors\": [{}1], \"asset\": {{}}}}", "1, ".repeat(30_000));
+    for name in ["a.gltf", "a.json", "a.ug", "<stdin>"] {
+        check(name, late.as_bytes(), Some(MeshFormat::Gltf));
+        check(name, &late.as_bytes()[..80_000], Some(MeshFormat::Gltf));
+        check(name, b"\xef\xbb\xbf { \"a\": 1 }\n", Some(MeshFormat::Gltf));
+        check(name, b"{\"min\": NaN, \"asset\": {}}", Some(MeshFormat::Gltf));
+    }
+    check("a.ug", b"{\"title\": \"JSON in a comment\"} v a 0 0 0;", None);
+    check("a.ug", b"{\"quoted\" comment} v a 0 0 0;", None);
+    // A name of a group may have a semicolon.
+    check("a.obj", b"v 0 0 0\ng a;b\n", Some(MeshFormat::Obj));
     let stl = [&[b';'; 80][..], &[0; 4]].concat();
     check("a", &stl, Some(MeshFormat::Stl));
 }

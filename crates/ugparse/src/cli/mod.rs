@@ -232,7 +232,11 @@ fn findings_json(findings: &Diagnostics) -> Value {
             json!({ "file": place.file, "line": place.line, "column": place.column, "label": label })
         });
         json!({
-            "severity": if finding.severity == Severity::Error { "error" } else { "warning" },
+            "severity": match finding.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Note => "note",
+            },
             "message": finding.message,
             "file": place.file,
             "line": place.line,

@@ -54,7 +54,8 @@ impl<'t> Grammar<'t, '_> {
         Ok((input, Statement::Table(name, ColorTable { color, rows, is_stepped, period, shift })))
     }
 
-    /// `c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]`
+    /// `c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]
+    /// [-nearest]`
     pub(super) fn texture(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, color) = wanted(self.color_name(input), NAME)?;
         let (mut input, file) = require(file(self.text, input, "the file of a picture"))?;
@@ -90,9 +91,9 @@ impl<'t> Grammar<'t, '_> {
                         (rest, Some(u32::try_from(row).unwrap_or(u32::MAX)));
                 }
                 b"blend" => (input, texture.alpha) = (rest, AlphaMode::Blend),
+                b"nearest" => (input, texture.is_nearest) = (rest, true),
                 _ => {
-                    let expected =
-                        "`;` or an option of a picture (-image -wrap -factor -mask -blend)";
+                    let expected = "`;` or an option of a picture (-image -wrap -factor -mask -blend -nearest)";
                     return fail(blank(input)?.0, Reason::Expected(expected));
                 }
             }

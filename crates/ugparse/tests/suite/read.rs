@@ -85,7 +85,44 @@ fn messages_have_the_lines_of_the_mesh() {
         "error: cannot read this as OBJ: a face refers to vertex `7`, but there are 3 before it\n \
          --> square.obj:4:1\n  |\n4 | f 1 2 7\n  | ^^^^^^^",
     );
-    check("# 7 \"other\"\nv 0 0 0\n", "warning: the mesh has no faces\n--> square.obj");
+    check(
+        "# 7 \"other\"\nv 0 0 0\n",
+        "error: cannot read this as OBJ: the mesh has no faces, only 1 point; make a surface of the \
+         cloud first\n--> square.obj",
+    );
+}
+
+/// The camera of an included mesh is used if the scene has none, and its lights always; as a mesh
+/// by itself it says so.
+#[test]
+fn cameras_of_meshes_are_used_if_the_scene_has_none() {
+    const MESH: &str = r#"{"scenes":[{"nodes":[0,1]}],"nodes":[
+        {"camera":0,"name":"own"},{"extensions":{"KHR_lights_punctual":{"light":0}}}],
+        "cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional"}]}},
+        "asset":{"version":"2.0"}}"#;
+    let parsed = |name: &str, text: &str| {
+        let options = Options::default();
+        let load = |_: &ugparse::Request<'_>| Ok(MESH.as_bytes().to_vec());
+        ugparse::parse(
+            &ugparse::include(Source::new(name, text), &options, load).unwrap(),
+            &options,
+        )
+        .unwrap()
+    };
+    for (text, expected) in [
+        ("include car.gltf;", &["own"][..]),
+        ("include car.gltf; cam main;", &["main"]),
+        ("def car; include car.gltf; end; i (car); cam main;", &["main"]),
+        ("def car; include car.gltf; end; i (car);", &["car:own"]),
+    ] {
+        let scene = parsed("a.ug", text).scene;
+        let names = scene.cameras.iter().map(|it| scene.names.get(it.name.unwrap()));
+        assert_eq!(names.collect::<Vec<_>>(), expected, "{text}");
+        assert_eq!(scene.lights.len(), 1, "{text}");
+    }
+    let shown = parsed("car.gltf", MESH).warnings.to_string();
+    assert!(shown.contains("note: the view is that of the camera `own` of the file"), "{shown}");
 }
 
 fn read_text(text: &str) -> Parsed {

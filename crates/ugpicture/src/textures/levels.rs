@@ -11,6 +11,15 @@ const MOST_PROBES: f64 = 16.0;
 /// Length of the long axis of a footprint, in texels, up to which one probe is enough.
 const POINT: f64 = 0.25;
 
+/// How texels are read.
+#[derive(Clone, Copy, Debug)]
+pub struct Filter {
+    /// What is beyond the edges of the picture.
+    pub wrap: [Wrap; 2],
+    /// Texels of the picture are flat squares, not interpolated.
+    pub is_nearest: bool,
+}
+
 /// A picture, and the same with half as many texels on each side, and so on down to one.
 #[derive(Debug)]
 pub struct Levels {
@@ -82,16 +91,17 @@ impl Levels {
     ///
     /// `uv`: its middle. `steps`: the changes of uv to the next sample across and down. The
     /// footprint is the ellipse with these as conjugate half-diameters; probes along its long axis
-    /// read the level whose texels are as wide as its short one.
-    pub fn sample(&self, uv: DVec2, steps: [DVec2; 2], wrap: [Wrap; 2]) -> [f64; 4] {
+    /// read the level whose texels are as wide as its short one. `filter`: of texels that are
+    /// larger.
+    pub fn sample(&self, uv: DVec2, steps: [DVec2; 2], filter: Filter) -> [f64; 4] {
         let sides = DVec2::from_array(self.base.size.map(|side| side as f64));
         let (long, width) = axes(steps.map(|step| step * sides));
         let length = long.length();
         let texel = if !length.is_finite() || length > 2.0 * sides.max_element() {
             // A sample of many repetitions, as at a horizon, or without a finite footprint.
-            self.trilinear(uv, f64::MAX, wrap)
+            self.trilinear(uv, f64::MAX, filter)
         } else if length <= POINT {
-            self.bilinear(0, uv, wrap)
+            self.texel(0, uv, filter)
         } else {
             // Two show where within the footprint an edge between texels is.
             let fewest = if width <= 1.0 { 2.0 } else { 1.0 };
@@ -101,7 +111,7 @@ impl Levels {
             let mut sum = [0.0; 4];
             for probe in 0..n_probes as u32 {
                 let part = (f64::from(probe) + 0.5) / n_probes - 0.5;
-                let texel = self.trilinear(uv + part * along, level, wrap);
+                let texel = self.trilinear(uv + part * along, level, filter);
                 sum.iter_mut().zip(texel).for_each(|(sum, part)| *sum += part);
             }
             sum.map(|part| part / n_probes as f32)
@@ -113,23 +123,27 @@ impl Levels {
         [red / alpha, green / alpha, blue / alpha, alpha]
     }
 
-    fn trilinear(&self, uv: DVec2, level: f64, wrap: [Wrap; 2]) -> [f32; 4] {
+    fn trilinear(&self, uv: DVec2, level: f64, filter: Filter) -> [f32; 4] {
         let level = level.min(self.others.len() as f64);
         let (whole, part) = (level.floor() as usize, level.fract() as f32);
-        let near = self.bilinear(whole, uv, wrap);
+        let near = self.texel(whole, uv, filter);
         if part == 0.0 {
             return near;
         }
-        let far = self.bilinear(whole + 1, uv, wrap);
+        let far = self.texel(whole + 1, uv, filter);
         std::array::from_fn(|at| near[at] + part * (far[at] - near[at]))
     }
 
     #[inline]
-    fn bilinear(&self, level: usize, uv: DVec2, wrap: [Wrap; 2]) -> [f32; 4] {
+    fn texel(&self, level: usize, uv: DVec2, filter: Filter) -> [f32; 4] {
+        let Filter { wrap, is_nearest } = filter;
         let other = level.checked_sub(1).map(|row| &self.others[row]);
         let [width, height] = other.map_or(self.base.size, |level| level.size);
         let [(left, right, x), (top, bottom, y)] =
             [(uv.x, width, wrap[0]), (uv.y, height, wrap[1])].map(neighbours);
+        // Smaller texels than those of the picture are not larger than a sample.
+        let step = |part: f32| if is_nearest && level == 0 { part.round() } else { part };
+        let (x, y) = (step(x), step(y));
         let texel = |column: usize, row: usize| {
             let at = row * width + column;
             other.map_or_else(|| self.base_texel(at), |level| level.texels[at])
@@ -235,7 +249,11 @@ mod tests {
 
     fn red(levels: &Levels, [u, v]: [f64; 2], step: f64, wrap: Wrap) -> f64 {
         let steps = [DVec2::new(step, 0.0), DVec2::new(0.0, step)];
-        levels.sample(DVec2::new(u, v), steps, [wrap; 2])[0]
+        levels.sample(DVec2::new(u, v), steps, smooth(wrap))[0]
+    }
+
+    fn smooth(wrap: Wrap) -> Filter {
+        Filter { wrap: [wrap; 2], is_nearest: false }
     }
 
     /// Means of each level are that of the picture, whatever its sides.
@@ -294,7 +312,7 @@ mod tests {
     fn probes_follow_the_long_axis() {
         let levels = grey([64, 64], |x, _| (x % 2) as f32);
         let sample = |steps: [DVec2; 2]| {
-            levels.sample(DVec2::new(0.5 / 64.0, 0.5), steps, [Wrap::Repeat; 2])[0]
+            levels.sample(DVec2::new(0.5 / 64.0, 0.5), steps, smooth(Wrap::Repeat))[0]
         };
         let short = DVec2::new(0.5 / 64.0, 0.0);
         assert!(sample([short, DVec2::new(0.0, 12.0 / 64.0)]) < 1e-6);
@@ -311,7 +329,35 @@ mod tests {
     fn light_is_weighted_by_alpha() {
         let pixels = vec![[255, 0, 0, 255], [0, 255, 0, 0]];
         let levels = Levels::new([2, 1], Pixels::Srgb(pixels), false).unwrap();
-        let found = levels.sample(DVec2::new(0.5, 0.5), [DVec2::ZERO; 2], [Wrap::Clamp; 2]);
+        let found = levels.sample(DVec2::new(0.5, 0.5), [DVec2::ZERO; 2], smooth(Wrap::Clamp));
         assert_eq!(found, [1.0, 0.0, 0.0, 0.5]);
+    }
+
+    /// Large texels are flat squares with sharp edges at k/4; small ones have their mean.
+    #[test]
+    fn nearest_texels_are_squares() {
+        let levels = grey([4, 1], |x, _| x as f32);
+        let sample = |place: f64, step: f64, wrap: Wrap| {
+            let filter = Filter { wrap: [wrap; 2], is_nearest: true };
+            let steps = [DVec2::new(step, 0.0), DVec2::new(0.0, step)];
+            levels.sample(DVec2::new(place, 0.5), steps, filter)[0]
+        };
+        for (place, wrap, expected) in [
+            (0.01, Wrap::Repeat, 0.0),
+            (0.249, Wrap::Repeat, 0.0),
+            (0.251, Wrap::Repeat, 1.0),
+            (0.74, Wrap::Clamp, 2.0),
+            (0.76, Wrap::Clamp, 3.0),
+            (1.01, Wrap::Repeat, 0.0),
+            (-0.01, Wrap::Repeat, 3.0),
+            (1.01, Wrap::Mirror, 3.0),
+            (9.0, Wrap::Clamp, 3.0),
+        ] {
+            assert_eq!(sample(place, 0.001, wrap), expected, "{place} {wrap:?}");
+        }
+        // Of a sample across an edge each side counts with its part.
+        assert_eq!(sample(0.5, 0.2, Wrap::Clamp), 1.5);
+        assert!((sample(0.3, 40.0, Wrap::Repeat) - 1.5).abs() < 1e-6);
+        assert!(sample(f64::NAN, 0.0, Wrap::Repeat).is_finite());
     }
 }

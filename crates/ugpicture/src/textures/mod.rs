@@ -15,7 +15,7 @@ use uglight::{Appearance, SurfaceColor};
 use ugscene::{AlphaMode, ColorId, Scene, Texture, VertexId};
 
 pub use footprint::SurfaceElementPlane;
-use levels::Levels;
+use levels::{Filter, Levels};
 
 /// A picture on surfaces that cannot be read.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -203,8 +203,9 @@ impl TextureMap {
         let (along, beside) = (b - a, c - a);
         let uv = a + second * along + third * beside;
         let steps = steps().map(|[second, third]| second * along + third * beside);
-        let Texture { wrap, factor, alpha, .. } = self.texture;
-        let [red, green, blue, opacity] = self.levels.sample(uv, steps, wrap);
+        let Texture { wrap, factor, alpha, is_nearest, .. } = self.texture;
+        let filter = Filter { wrap, is_nearest };
+        let [red, green, blue, opacity] = self.levels.sample(uv, steps, filter);
         let [f_red, f_green, f_blue, f_alpha] = factor.map(f64::from);
         let mut light = DVec3::new(red * f_red, green * f_green, blue * f_blue);
         let tint =

@@ -13,6 +13,7 @@ use crate::cli::messages::{Host, Messages};
 use crate::cli::output::Output;
 use crate::cli::provenance;
 use crate::cli::steps::Steps;
+use crate::other_case::OtherCase;
 use crate::text::{printable_json, printable_lines};
 
 /// Largest input in bytes: 4 GiB. Inputs are read into memory whole.
@@ -42,7 +43,15 @@ fn in_memory<'f>(files: &'f [Input], path: &Path) -> io::Result<&'f Input> {
     let by_name =
         || files.iter().find(|file| Path::new(&file.name).file_name() == path.file_name());
     let found = files.iter().find(|file| Path::new(&file.name) == path).or_else(by_name);
-    found.ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "It is not among the given files"))
+    found.ok_or_else(|| {
+        let lower =
+            |path: &Path| path.file_name().map(|name| name.to_string_lossy().to_lowercase());
+        let mut names = files.iter().map(|file| Path::new(&file.name));
+        match names.find(|name| lower(name) == lower(path)).and_then(Path::file_name) {
+            Some(name) => OtherCase::error(path.with_file_name(name)),
+            None => io::Error::new(io::ErrorKind::NotFound, "It is not among the given files"),
+        }
+    })
 }
 
 /// The first bytes of a file in memory.

@@ -1,13 +1,15 @@
 //! Reading files and running programs that an input names, with limits on their size and place.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 
 use crate::cli::cleanup::Running;
 use crate::cli::failure::reason;
+use crate::other_case::OtherCase;
 
 /// Largest number of bytes of standard error that are examined.
 const MAX_STDERR: u64 = 1 << 16;
@@ -60,13 +62,36 @@ impl Place {
 /// The file is not at this place, not a regular file, or cannot be read; the error has the system's
 /// message.
 pub(crate) fn read_file(path: &Path, place: &Place, limit: u64) -> io::Result<Vec<u8>> {
-    let path = place.admit(path)?;
+    let path = place.admit(path).map_err(|error| match in_other_case(path, place) {
+        Some(other) if error.kind() == io::ErrorKind::NotFound => OtherCase::error(other),
+        _ => error,
+    })?;
     // Checked before it is opened: opening a named pipe waits for a writer.
     let kind = fs::metadata(&path).map_err(without_number)?.file_type();
     if !kind.is_file() && !kind.is_dir() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "It is not a regular file"));
     }
     File::open(path).and_then(|file| read_file_up_to(file, limit)).map_err(without_number)
+}
+
+/// The file at this place whose path differs in the case of letters alone, if there is one.
+fn in_other_case(path: &Path, place: &Place) -> Option<PathBuf> {
+    let mut found = PathBuf::new();
+    for component in path.components() {
+        let next = found.join(component);
+        if !matches!(component, Component::Normal(_)) || fs::symlink_metadata(&next).is_ok() {
+            found = next;
+            continue;
+        }
+        let folder = if found.as_os_str().is_empty() { Path::new(".") } else { &found };
+        place.admit(folder).ok()?;
+        let name = component.as_os_str().to_str()?.to_lowercase();
+        let names = fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.file_name()));
+        let is_same = |other: &OsString| other.to_str().is_some_and(|it| it.to_lowercase() == name);
+        // The first in the order of bytes, since folders have none.
+        found.push(names.filter(is_same).min()?);
+    }
+    place.admit(&found).ok().map(|_| found)
 }
 
 /// Runs a program, without a shell, arguments or input, and reads at most `limit` bytes of its

@@ -22,12 +22,21 @@ pub struct Texture {
     pub factor: [f32; 4],
     /// The meaning of alpha.
     pub alpha: AlphaMode,
+    /// Where texels are larger than samples, they are flat squares, not interpolated.
+    pub is_nearest: bool,
 }
 
 impl Texture {
     /// A picture as it is, repeated, without alpha.
     pub fn new(color: ColorId, image: TextureImage) -> Self {
-        Self { color, image, wrap: [Wrap::Repeat; 2], factor: [1.0; 4], alpha: AlphaMode::Opaque }
+        Self {
+            color,
+            image,
+            wrap: [Wrap::Repeat; 2],
+            factor: [1.0; 4],
+            alpha: AlphaMode::Opaque,
+            is_nearest: false,
+        }
     }
 }
 

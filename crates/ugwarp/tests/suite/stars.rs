@@ -266,6 +266,45 @@ fn lists_have_several_frames_and_colours() {
     assert!((sun[0].kelvin - 5780.0).abs() < 30.0, "{}", sun[0].kelvin);
 }
 
+/// Hours or degrees, minutes and seconds, as VizieR writes them; the sign is that of all parts.
+#[test]
+fn angles_may_be_sexagesimal() {
+    #[track_caller]
+    fn check(names: &str, fields: &str, ra: f64, dec: f64) {
+        let text = format!("{names},Vmag,B-V\n{fields},1.0,0.5\n");
+        let list = read_stars("t.csv", text.as_bytes()).unwrap();
+        let (sin, cos) = (-ra.to_radians()).sin_cos();
+        let (up, level) = dec.to_radians().sin_cos();
+        let expected = DVec3::new(level * sin, level * cos, up);
+        assert!((list.stars[0].direction - expected).length() < 1e-15, "{fields}");
+        assert_eq!(list.notes, [""; 0], "{fields}");
+    }
+    let vizier = "RAJ2000,DEJ2000";
+    check(vizier, "05 30 00.0,-00 30 00.0", 82.5, -0.5);
+    check(vizier, "05:30:00.0,+00:30:36", 82.5, 0.51);
+    check(vizier, "5h30m0s,-0\u{b0}30'36\"", 82.5, -0.51);
+    check(vizier, "5 30.5,-00 30.6", 82.625, -0.51);
+    check(vizier, "82d30m,-89 59 60.0", 82.5, -90.0);
+    check("ra_hours,dec", "05 30 00,1 0 0", 82.5, 1.0);
+    check("lon,lat", "-00 30 00,-0:30:0", 0.5, -0.5);
+    let refused = |text: &str, expected: &str| {
+        let text = format!("ra,dec,mag,kelvin\n{text},1,5000\n");
+        let found = read_stars("t.csv", text.as_bytes()).unwrap_err().render(false);
+        assert!(found.contains(expected), "{text}: {found}");
+    };
+    refused("5 60 0,1", "`5 60 0` is not a number");
+    refused("5 0 61,1", "`5 0 61` is not a number");
+    refused("5.5 0 0,1", "`5.5 0 0` is not a number");
+    refused("1 2 3 4,1", "`ra` takes degrees from -360 to 360, or `hh mm ss` or `hh:mm:ss`");
+    refused("1,--1 0 0", "`dec` takes degrees from -90 to 90, or `dd mm ss` or `dd:mm:ss`");
+    refused("1,5h0m0s", "`5h0m0s` is not a number");
+    refused("1,5 -1 0", "`5 -1 0` is not a number");
+    refused("25 0 0,1", "`25 0 0` is out of range");
+    // Right ascensions of the first hours are not taken for hours again.
+    let list = b"ra,dec,mag,kelvin\n0 10 0,1,1,5000\n0 20 0,1,1,5000\n";
+    assert_eq!(read_stars("t.csv", list).unwrap().notes, [""; 0]);
+}
+
 #[test]
 fn mistakes_in_lists_are_shown() {
     let message = |text: &str| read_stars("sky.csv", text.as_bytes()).unwrap_err().render(false);
