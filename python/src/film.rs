@@ -24,7 +24,8 @@ pub fn film(
     threads: Option<usize>,
 ) -> PyResult<Vec<String>> {
     let draw = move |call: &Arc<Call>| {
-        let (args, line): (ugfilm::Args, _) = parse_command(words_of_system(&words, path.as_deref()))?;
+        let (args, line): (ugfilm::Args, _) =
+            parse_command(words_of_system(&words, path.as_deref()))?;
         let given = text.map(|text| input(path.as_deref(), text));
         let context = Context::hosted(args.common(), "ugfilm", line, given, call.clone());
         let mut context = context.beside(inputs(files));

@@ -206,8 +206,9 @@ impl PyScene {
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (scene, time) = (&self.parsed.scene, self.time.unwrap_or(0.0));
-        let rows =
-            call::run(py, None, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
+        let rows = call::run(py, None, None, |_| {
+            ugscene::measure(scene, ugscene::eye(scene, None), time)
+        })?;
         let measured = PyDict::new(py);
         measured.set_item("position", self.vertices(py)?)?;
         let velocities = rows.iter().flat_map(|row| row.velocity.to_array()).collect();

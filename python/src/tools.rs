@@ -4,8 +4,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use ugfilm::TOOLS;
 use ugimage::Format;
-use ugpicture::Channel;
 use ugparse::{EXAMPLE_FILES, example_subject};
+use ugpicture::Channel;
 use ugpipe::{Entry, Manual, manual};
 
 use crate::error::wrong;

@@ -45,7 +45,8 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
     match args.name {
         Some(row) => context.write(EXAMPLE_FILES[row].1),
         None => {
-            let lines = EXAMPLE_FILES.map(|(name, text)| format!("{:10} {}\n", short(name), example_subject(text)));
+            let lines = EXAMPLE_FILES
+                .map(|(name, text)| format!("{:10} {}\n", short(name), example_subject(text)));
             context.write_text(&lines.concat())
         }
     }
