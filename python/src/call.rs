@@ -65,7 +65,8 @@ impl Call {
 }
 
 /// The outcome of a computation without the interpreter lock. `progress`: a function that is called
-/// with the step, the parts that are done and all parts. `n_threads`: all of the machine without it.
+/// with the step, the parts that are done and all parts. `n_threads`: all of the machine without
+/// it.
 ///
 /// # Errors
 /// An interrupt, or an exception of `progress`, both of which stop the computation; no thread can

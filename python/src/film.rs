@@ -10,8 +10,8 @@ use crate::call::{self, Call};
 use crate::error::Refused;
 use crate::scene::{input, inputs, words_of_system};
 
-/// Draws a film. `words`: those of the program, which name the output. `files`: those that the scene
-/// names, in memory. Returns the notes.
+/// Draws a film. `words`: those of the program, which name the output. `files`: those that the
+/// scene names, in memory. Returns the notes.
 #[pyfunction]
 #[pyo3(signature = (words, path=None, text=None, files=Vec::new(), progress=None, threads=None))]
 pub fn film(

@@ -61,7 +61,7 @@ def examples() -> dict[str, str]:
 
     >>> import uglorentz as ug
     >>> print(ug.examples()["cubes"])
-    Straight edges in motion bend
+    Two cubes of tiles, after figure 9 of Chang, Lai and Chen (1996)
     """
     return {short(file): about for file, about in SCENES.items()}
 

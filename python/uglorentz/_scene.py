@@ -126,7 +126,7 @@ class Scene:
 
         >>> import uglorentz as ug
         >>> ug.Scene.example("ship")
-        <Scene: 1064 vertices, 792 faces, at rest>
+        <Scene: 1948 vertices, 932 faces, at rest>
         """
         files = [file for file, _ in _core.examples() if file in (name, f"{name}.ug") and file in SCENES]
         text = _core.example(files[0]) if files else None
