@@ -8,15 +8,14 @@ use std::path::{Path, PathBuf};
 use image::imageops::{FilterType, resize};
 use image::{RgbImage, open};
 use rayon::prelude::*;
-use ugtests::documents::{Page, prepare, resized, shrunk, with_options, written_files};
+use ugtests::documents::{Page, prepare, resized, shrunk, with_options};
 use ugtests::scenes;
 
 use crate::programs;
 
-/// The pages, each with the default size of its pictures in pixels. What README shows is drawn in
-/// the gallery once more.
+/// The pages, each with the default size of its pictures in pixels.
 const PAGES: [(&str, [u32; 2]); 6] = [
-    (README, [1600, 1000]),
+    (README, [640, 480]),
     ("docs/gallery.md", [640, 480]),
     ("docs/start.md", [1280, 960]),
     ("docs/motion.md", [640, 480]),
@@ -24,7 +23,7 @@ const PAGES: [(&str, [u32; 2]); 6] = [
     ("docs/figures.md", [640, 480]),
 ];
 
-/// The page of which only those commands run that draw its pictures.
+/// The page of which only the film is drawn: its pictures are those of the gallery.
 const README: &str = "README.md";
 
 /// Folder of the small pictures, beside the large ones.
@@ -57,7 +56,7 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     }
     for (path, size) in wanted {
         let page = Page::read(path);
-        let has_small = page.text.contains(&format!("/{SMALL}/"));
+        let has_small = path != README && page.text.contains(&format!("/{SMALL}/"));
         for (scale, part) in [(1.0, ""), (0.5, SMALL)].into_iter().take(1 + usize::from(has_small))
         {
             let folder = tempfile::tempdir()?;
@@ -79,11 +78,7 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
 
 /// The commands to run for the pictures of a page.
 fn commands(page: &Page) -> impl Iterator<Item = &String> {
-    let names: Vec<PathBuf> =
-        links(page).into_iter().filter_map(|link| link.file_name().map(PathBuf::from)).collect();
-    let draws = move |command: &&String| {
-        page.path != README || written_files(command).iter().any(|file| names.contains(file))
-    };
+    let draws = move |command: &&String| page.path != README || command.contains(".gif");
     page.commands.iter().filter(draws)
 }
 
