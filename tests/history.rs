@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use ugpipe::remedies::PROGRAMS;
-use ugpipe::{CommonArgs, Entry, Manual, WRITING, manual};
+use ugpipe::{CommonArgs, Manual, WRITING, manual};
 use ugsheet::recipes;
 use ugtesting::Random;
 use ugtests::shell::Shell;
@@ -258,25 +258,15 @@ fn manuals() -> Vec<Manual> {
 /// Every option whose value may be the name of a file is known to read it or to write it.
 #[test]
 fn options_that_name_files_read_or_write_them() {
-    /// Options that read their file, and texts that name none.
-    const READING: [&str; 14] = [
-        "fi",
-        "input",
-        "keys",
-        "scene",
-        "infrared",
-        "ultraviolet",
-        "sky",
-        "cam",
-        "camera",
-        "name",
-        "title",
-        "cap",
-        "label",
-        "caption",
-    ];
+    /// Options that read the file which they name, and those whose text names none.
+    const NOT_WRITING: &str = "fi input keys scene infrared ultraviolet sky stars cam camera name \
+        title cap label caption across ch channels only";
     /// Names of values that are numbers, or words that the program knows.
-    const OTHERS: [&str; 3] = ["N", "X", "Y"];
+    const OTHERS: &str = "A ANGLE AXIS B BASIS CONTRAST CURVE DISTANCE EAST ERR E|WORD E|auto FAR \
+        FILTER FMT FORMAT H HIGH KIND L LAW LEAST LOOK LOW M MAG N NAME=N NEAR NM NORTH PART \
+        PERCENT PIXELS PLACE POINT QUANTITY RATE RULE S SOUTH SPEED STOPS STYLE T T2 T3 TIME \
+        UNIT VALUE W WEST WORD X X,Y Y Z";
+    let is_in = |list: &str, name: &str| list.split_whitespace().any(|other| other == name);
     let (mut written, mut unknown) = (BTreeSet::new(), BTreeMap::new());
     let manuals = manuals();
     for manual in &manuals {
@@ -293,19 +283,17 @@ fn options_that_name_files_read_or_write_them() {
                 written.extend(names);
                 continue;
             }
-            let is_known = names.iter().any(|name| READING.contains(name));
-            let is_other = |option: &Entry| {
-                option.values.iter().all(|value| OTHERS.contains(&value.name.as_str()))
-            };
-            if !is_known && !is_other(option) {
+            let is_known = names.iter().any(|name| is_in(NOT_WRITING, name));
+            let is_other = option.values.iter().all(|value| is_in(OTHERS, &value.name));
+            if !is_known && !is_other {
                 unknown.insert(names.join(" "), option.syntax());
             }
         }
     }
     assert!(
         unknown.is_empty(),
-        "does the value name a file that is read (READING) or written (ugpipe::WRITING), or none \
-         (OTHERS)? {unknown:#?}"
+        "does the option read the file that its value names (NOT_WRITING), write it \
+         (ugpipe::WRITING), or has it no file (OTHERS)? {unknown:#?}"
     );
     // `-o` is another spelling of `-fo`, and in no manual.
     let missing: Vec<_> = WRITING.iter().filter(|name| !written.contains(**name)).collect();
@@ -316,13 +304,14 @@ fn options_that_name_files_read_or_write_them() {
 #[test]
 fn options_that_write_files_are_known() {
     /// Places, how many, and the options of `ugpipe::WRITING` that lead there.
-    const PLACES: [(&str, usize, &str); 7] = [
+    const PLACES: [(&str, usize, &str); 8] = [
         ("crates/ugfilm/src/film.rs", 2, "fo keep"),
         ("crates/ugfilm/src/frame_files.rs", 1, "fo keep"),
         ("crates/uglorentz/src/cli.rs", 1, "at"),
         ("crates/ugmesh/src/cli.rs", 1, "fo"),
         ("crates/ugparse/src/cli/examples.rs", 1, "all"),
         ("crates/ugphoton/src/cli.rs", 1, "pv"),
+        ("crates/ugsheet/src/cli.rs", 1, "fo"),
         ("crates/ugsheet/src/film/encode.rs", 1, "fo"),
     ];
     const CALLS: [&str; 9] = [
