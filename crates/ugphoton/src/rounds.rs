@@ -8,8 +8,8 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::lens::Lens;
 
-/// The greatest distance of a polygon from the surface, in pixels: no level of a pixel changes by
-/// more than this part.
+/// The greatest distance of a polygon from the surface, in pixels: the covered part of a pixel
+/// changes by this much at most, and so only single samples at outlines do.
 const SAGITTA: f64 = 0.02;
 
 /// Cuts the round faces of bodies on world lines, within [`SAGITTA`] where they are seen directly,

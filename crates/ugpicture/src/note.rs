@@ -58,7 +58,8 @@ pub enum Note {
     NoWires,
     /// Round faces of bodies on world lines are drawn as polygons.
     #[error(
-        "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
+        "round faces of bodies that accelerate or turn are drawn as polygons, to 1/50 of a pixel or 1/4000 of \
+         their radius"
     )]
     CutRounds,
     /// The up direction is zero or parallel to the view.
