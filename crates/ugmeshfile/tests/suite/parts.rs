@@ -447,7 +447,7 @@ fn cameras_of_gltf() {
             ),
             "note: the view is that of the camera `main_view` of the file; others can be selected \
              by name: `camera2`, `camera3`",
-            "!warning",
+            "warning: 1 camera is left out, since it makes no picture",
             "!camera4",
         ],
     );
