@@ -391,9 +391,9 @@ fn what_is_not_read_of_exr_is_told() {
     assert_eq!(notes(&[("left", RGB), ("right", RGB)]), [two]);
     let both = [RGB, &["right.R", "right.G", "right.B"]].concat();
     assert_eq!(notes(&[("", &both)]), ["the picture for another eye is not read: `right`"]);
+    let refused = write(&[("", &["N.X", "N.Y", "id"])]);
     let refused =
-        ugimage::read_picture(&write(&[("", &["N.X", "N.Y", "id"])]), &PictureLimits::default());
-    let refused = refused.unwrap_err().to_string();
+        ugimage::read_picture(&refused, &PictureLimits::default()).unwrap_err().to_string();
     assert_eq!(
         refused,
         "not a readable EXR file: it has no channels of colours (`R`, `G`, `B`, or `Y`): its \

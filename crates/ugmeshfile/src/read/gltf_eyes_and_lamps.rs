@@ -15,6 +15,9 @@ use crate::error::Problem;
 /// The shape of the picture, width over height, of a camera that does not state it.
 const ASPECT: f64 = 4.0 / 3.0;
 
+/// The most names in a message.
+const MOST_NAMED: usize = 5;
+
 /// The cameras and lights of nodes that are in the scene.
 #[derive(Default)]
 pub(super) struct EyesAndLamps {
@@ -22,6 +25,8 @@ pub(super) struct EyesAndLamps {
     lamps: Vec<Lamp>,
     /// The kinds of lights that are not read.
     unread: BTreeSet<String>,
+    /// Cameras that make no picture.
+    n_invalid: usize,
 }
 
 /// A camera of a node.
@@ -59,8 +64,9 @@ impl EyesAndLamps {
         };
         if let Some(index) = whole(&node["camera"]) {
             let camera = document.row("cameras", index)?;
-            if let Some(lens) = lens(camera) {
-                self.eyes.push(Eye { name: name_of(camera), place: *place, lens });
+            match lens(camera) {
+                Some(lens) => self.eyes.push(Eye { name: name_of(camera), place: *place, lens }),
+                None => self.n_invalid += 1,
             }
         }
         let light = &node["extensions"]["KHR_lights_punctual"]["light"];
@@ -81,25 +87,37 @@ impl EyesAndLamps {
     }
 
     /// Adds all to the scene, whose faces are complete.
-    pub fn finish(self, input: &Input<'_>, builder: &mut Builder) {
+    pub fn finish(mut self, input: &Input<'_>, builder: &mut Builder) {
         let mut names = Vec::new();
-        for (row, eye) in self.eyes.into_iter().enumerate() {
+        for (row, eye) in std::mem::take(&mut self.eyes).into_iter().enumerate() {
             let name =
                 builder.name(&eye.name).or_else(|| builder.name(&format!("camera{}", row + 1)));
-            let Some(camera) = camera(&eye, name, builder.scene()) else { continue };
+            let Some(camera) = camera(&eye, name, builder.scene()) else {
+                self.n_invalid += 1;
+                continue;
+            };
             builder.camera(camera);
             names
                 .extend(name.map(|name| format!("`{}`", shorten(builder.scene().names.get(name)))));
         }
+        builder.warn_count(
+            self.n_invalid,
+            "camera is left out, since it makes no picture",
+            "cameras are left out, since they make no picture",
+        );
         if let [first, others @ ..] = &names[..] {
             let rest = match others {
                 [] => String::new(),
-                _ => format!("; others can be selected by name: {}", others.join(", ")),
+                _ => {
+                    let more = if others.len() > MOST_NAMED { ", …" } else { "" };
+                    let others = &others[..others.len().min(MOST_NAMED)];
+                    format!("; others can be selected by name: {}{more}", others.join(", "))
+                }
             };
             let note = format!("the view is that of the camera {first} of the file{rest}");
             input.notes.borrow_mut().push(note);
         }
-        for kind in self.unread.iter().take(5) {
+        for kind in self.unread.iter().take(MOST_NAMED) {
             builder.warn(format!("a light of the kind `{kind}` is not read"));
         }
         for lamp in self.lamps {
@@ -121,7 +139,8 @@ impl EyesAndLamps {
             });
             let name = builder.name(&name);
             let motion = LightMotion::WithWhatItLights;
-            builder.light(Light { name, intensity: intensity * scale, kind, color, motion });
+            let intensity = (intensity * scale).min(f64::MAX);
+            builder.light(Light { name, intensity, kind, color, motion });
         }
     }
 }
@@ -158,15 +177,18 @@ fn camera(eye: &Eye, name: Option<NameId>, scene: &Scene) -> Option<Camera> {
         Lens::Orthographic(half) => (Projection::Orthographic, half.map(|half| half / distance)),
     };
     let angle = |half: f64| 2.0 * libm::atan(half).to_degrees();
-    let is_usable =
-        place.translation.is_finite() && center.is_finite() && center != place.translation;
+    let angles = half.map(angle);
+    let is_usable = place.translation.is_finite()
+        && center.is_finite()
+        && center != place.translation
+        && angles.iter().all(|angle| 0.0 < *angle && *angle < 180.0);
     is_usable.then_some(Camera {
         name,
         eye: Some(place.translation + DVec3::ZERO),
         center: Some(center + DVec3::ZERO),
         up: Some(up + DVec3::ZERO),
         projection: Some(projection),
-        view_angle: Some(half.map(angle)),
+        view_angle: Some(angles),
         ..Camera::default()
     })
 }

@@ -421,9 +421,9 @@ fn materials_of_gltf() {
 
 #[test]
 fn cameras_of_gltf() {
-    let tan = 0.25_f64.tan();
+    let tan = libm::tan(0.25);
     let [down, across] =
-        [tan, tan * 4.0 / 3.0].map(|tan| (2e3 * tan.atan().to_degrees()).round() / 1e3);
+        [tan, tan * 4.0 / 3.0].map(|tan| (2e3 * libm::atan(tan).to_degrees()).round() / 1e3);
     let cameras = r#","cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}},
         {"type":"orthographic","orthographic":{"xmag":2,"ymag":1,"zfar":9,"znear":0}},
         {"type":"perspective","perspective":{"yfov":0.5,"znear":0.1,"aspectRatio":1}},
@@ -447,7 +447,7 @@ fn cameras_of_gltf() {
             ),
             "note: the view is that of the camera `main_view` of the file; others can be selected \
              by name: `camera2`, `camera3`",
-            "!warning",
+            "warning: 1 camera is left out, since it makes no picture",
             "!camera4",
         ],
     );

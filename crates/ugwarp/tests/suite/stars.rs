@@ -273,8 +273,8 @@ fn angles_may_be_sexagesimal() {
     fn check(names: &str, fields: &str, ra: f64, dec: f64) {
         let text = format!("{names},Vmag,B-V\n{fields},1.0,0.5\n");
         let list = read_stars("t.csv", text.as_bytes()).unwrap();
-        let (sin, cos) = (-ra.to_radians()).sin_cos();
-        let (up, level) = dec.to_radians().sin_cos();
+        let (sin, cos) = libm::sincos(-ra.to_radians());
+        let (up, level) = libm::sincos(dec.to_radians());
         let expected = DVec3::new(level * sin, level * cos, up);
         assert!((list.stars[0].direction - expected).length() < 1e-15, "{fields}");
         assert_eq!(list.notes, [""; 0], "{fields}");

@@ -37,8 +37,8 @@ fn statements_are_read_and_written() {
             "c_rgb w 1 1 1;\nc_tex w \"a b.png\" -wrap clamp -factor 1 0.5 0.25 -mask 0.5;\n",
         ),
         (
-            "c w 1; c_tex w { of the wall } a.glb -blend -wrap mirror repeat -image 2 -factor 0 0 0 .1;",
-            "c w 1;\nc_tex w \"a.glb\" -image 2 -wrap mirror repeat -factor 0 0 0 0.1 -blend;\n{ of the wall }\n",
+            "c w 1; c_tex w { of the wall } a.glb -nearest -blend -wrap mirror repeat -image 2 -factor 0 0 0 .1;",
+            "c w 1;\nc_tex w \"a.glb\" -image 2 -wrap mirror repeat -factor 0 0 0 0.1 -blend -nearest;\n{ of the wall }\n",
         ),
         ("c b 1; c_emit b a ; c a 2;", "c b 1;\nc a 2;\nc_emit b a;\n"),
         ("v a 0 0 0 (.1 -1e-9);", "v a 0 0 0 (0.1 -1e-9);\n"),
@@ -121,7 +121,7 @@ fn errors_have_a_place_and_a_remedy() {
         ("c w 1; c_tex w a.png -image -1;", "expected the number of a picture, from 0, found `-1`"),
         (
             "c w 1; c_tex w a.png -glow;",
-            "expected `;` or an option of a picture (-image -wrap -factor -mask -blend), found `-glow`",
+            "expected `;` or an option of a picture (-image -wrap -factor -mask -blend -nearest), found `-glow`",
         ),
         ("v a 0 0 0 (1);", "expected a number, found `)`"),
         ("v a 0 0 0 (nan 0);", "expected a number, found `nan`"),
