@@ -8,13 +8,8 @@ use ugparse::{
 libfuzzer_sys::fuzz_target!(|text: &[u8]| {
     // The length of the input selects the options. Rendering of diagnostics takes most of the time,
     // so it is done for two of eight lengths, once with and once without colour.
-    let keeps_rounds = text.len() % 5 > 1;
-    let options = Options {
-        lax: text.len() % 2 == 0,
-        execute: text.len() % 3 > 0,
-        keeps_rounds,
-        limits: limits(),
-    };
+    let options =
+        Options { lax: text.len() % 2 == 0, execute: text.len() % 3 > 0, limits: limits() };
     let messages = read(text, &options).unwrap_or_else(|findings| findings);
     if text.len() % 8 < 2 {
         std::hint::black_box(messages.render(text.len() % 2 == 0));

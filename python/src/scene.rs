@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use clap::Parser;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -12,7 +12,7 @@ use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{Error, FilmItem, Note, ParsedCommand, Program, ProgramError};
 use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, Words, parse_words};
-use ugscene::{BodyBoxes, CameraOptions, Provenance};
+use ugscene::{BodyBoxes, CameraOptions, Provenance, Scene, TooManyPolygons};
 
 use crate::call::{self, Call};
 use crate::error::{Refused, wrong};
@@ -21,6 +21,8 @@ use crate::error::{Refused, wrong};
 #[pyclass(frozen, module = "uglorentz._core", name = "Scene")]
 pub struct PyScene {
     parsed: Arc<Parsed>,
+    /// The same with its round faces as polygons, for arrays; nothing of a scene without them.
+    polygons: OnceLock<Result<Scene, TooManyPolygons>>,
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
     /// The time of the picture, of a scene whose positions are as seen, even if nothing moves.
@@ -104,12 +106,9 @@ impl PyScene {
     }
 
     /// Numbers of vertices, faces and wires.
-    fn counts(&self) -> [usize; 3] {
-        [
-            self.parsed.scene.vertices.len(),
-            self.parsed.scene.faces.len(),
-            self.parsed.scene.wires.len(),
-        ]
+    fn counts(&self) -> PyResult<[usize; 3]> {
+        let scene = self.polygons()?;
+        Ok([scene.vertices.len(), scene.faces.len(), scene.wires.len()])
     }
 
     /// True for positions as seen, and for colours as seen.
@@ -125,31 +124,22 @@ impl PyScene {
     }
 
     /// The names of the vertices.
-    fn names(&self) -> Vec<&str> {
-        self.parsed
-            .scene
-            .vertices
-            .iter()
-            .map(|vertex| self.parsed.scene.names.get(vertex.name))
-            .collect()
+    fn names(&self) -> PyResult<Vec<&str>> {
+        let scene = self.polygons()?;
+        Ok(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect())
     }
 
     /// The positions of the vertices, (n, 3).
     fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self
-            .parsed
-            .scene
-            .vertices
-            .iter()
-            .flat_map(|vertex| vertex.position.to_array())
-            .collect();
+        let vertices = &self.polygons()?.vertices;
+        let rows = vertices.iter().flat_map(|vertex| vertex.position.to_array()).collect();
         table(py, rows, 3)
     }
 
     /// The corners of all faces, one contour after the other, and the number of corners of each
     /// contour; the number of contours of each face.
-    fn faces<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<u32>>; 3] {
-        let scene = &self.parsed.scene;
+    fn faces<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<u32>>; 3]> {
+        let scene = self.polygons()?;
         let (mut corners, mut sizes, mut contours) = (Vec::new(), Vec::new(), Vec::new());
         for face in &scene.faces {
             contours.push(face.contours.len() as u32);
@@ -159,12 +149,12 @@ impl PyScene {
                 sizes.push(contour.len() as u32);
             }
         }
-        [corners, sizes, contours].map(|column| PyArray1::from_vec(py, column))
+        Ok([corners, sizes, contours].map(|column| PyArray1::from_vec(py, column)))
     }
 
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (scene, time) = (&self.parsed.scene, self.time.unwrap_or(0.0));
+        let (scene, time) = (self.polygons()?, self.time.unwrap_or(0.0));
         let rows =
             call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
         let measured = PyDict::new(py);
@@ -192,6 +182,20 @@ fn table(
 }
 
 impl PyScene {
+    /// The scene as arrays show it: with polygons in the place of round faces.
+    fn polygons(&self) -> PyResult<&Scene> {
+        let scene = &self.parsed.scene;
+        if !scene.has_rounds() {
+            return Ok(scene);
+        }
+        let polygons = self.polygons.get_or_init(|| {
+            let mut cut = scene.clone();
+            let eye = cut.camera().and_then(|camera| camera.eye);
+            ugscene::cut_rounds_at_rest(&mut cut, eye).map(|()| cut)
+        });
+        polygons.as_ref().map_err(|error| wrong(error.to_string()))
+    }
+
     fn open(words: Vec<OsString>, given: Option<Input>, call: &Arc<Call>) -> Result<Self, Refused> {
         let Reading { common } = parse_words(words)?;
         let options = pipe::options(&common)?;
@@ -204,7 +208,14 @@ impl PyScene {
         let warning = warning.map(|found| found.worded().render(false));
         let mut notes = call.take_notes();
         notes.extend(notes_on(parsed.warnings.clone()));
-        Ok(Self { parsed: Arc::new(parsed), source: Arc::new(source), time: None, notes, warning })
+        Ok(Self {
+            parsed: Arc::new(parsed),
+            polygons: OnceLock::new(),
+            source: Arc::new(source),
+            time: None,
+            notes,
+            warning,
+        })
     }
 
     /// The scene whose camera is the one of this name.
@@ -254,7 +265,14 @@ impl PyScene {
             bent: Vec::new(),
             warnings: Diagnostics::new(&source, Vec::new()),
         };
-        Ok(Self { parsed: Arc::new(parsed), source: Arc::new(source), time, notes, warning: None })
+        Ok(Self {
+            parsed: Arc::new(parsed),
+            polygons: OnceLock::new(),
+            source: Arc::new(source),
+            time,
+            notes,
+            warning: None,
+        })
     }
 
     /// The error of a filter, at its place in the text if there is one.

@@ -190,8 +190,14 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     steps.step("reading", 0);
     let parsed =
         ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
+    let first_round = parsed.first_round();
     let applied = apply_with(parsed.scene, &config, &steps);
-    let (mut scene, notes) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
+    let (mut scene, notes) = applied.map_err(|error| match error {
+        Error::TooManyPolygons(error) => {
+            pipe::refused(ugparse::too_many_polygons(&source, first_round, error))
+        }
+        error => failure(error, &source, &parsed.origins),
+    })?;
     drop(steps);
     scene.head.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
@@ -249,7 +255,9 @@ impl Words for Error {
             Self::Camera(error) => error.words(),
             Self::TooManyLights { .. } => format!("-li computes {self}"),
             Self::Sky(error) => error.words(),
-            Self::VertexAtEye { .. } | Self::Stopped(_) => self.to_string(),
+            Self::TooManyPolygons(_) | Self::VertexAtEye { .. } | Self::Stopped(_) => {
+                self.to_string()
+            }
         }
     }
 }

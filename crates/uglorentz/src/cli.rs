@@ -134,9 +134,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &reading)?;
     let steps = context.steps();
     steps.step("reading", 0);
-    let keeping = ugparse::Options { keeps_rounds: true, ..reading };
     let parsed =
-        ugparse::read(&source, &keeping, config.camera.name.as_deref()).map_err(pipe::refused)?;
+        ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);

@@ -91,7 +91,7 @@ pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
 pub use passed_on::{Comment, Item, PassedOn};
 #[cfg(feature = "triangles")]
-pub use read::read;
+pub use read::{read, too_many_polygons};
 pub use request::{Request, RequestError, RequestKind, name_pictures};
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};

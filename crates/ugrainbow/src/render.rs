@@ -79,11 +79,9 @@ pub fn run_with(
 ) -> Result<PictureFile, Error> {
     let canvas = Canvas::new(&config.picture)?;
     progress.step("reading", 0);
-    let is_by_rays = config.exact.is_some() && config.wireframe.is_none();
-    let keeps_rounds = is_by_rays && !config.picture.annotations.outline;
-    let reading = ugparse::Options { keeps_rounds, ..config.reading };
-    let parsed = ugparse::read(source, &reading, config.picture.camera.name.as_deref())?;
-    let rendering = draw(&parsed.scene, config, &canvas, provenance, progress)?;
+    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let drawn = draw(&parsed.scene, config, &canvas, provenance, progress);
+    let rendering = drawn.map_err(|error| error.at_rounds(source, &parsed))?;
     Ok(rendering.pack(warnings(source, parsed), progress))
 }
 
