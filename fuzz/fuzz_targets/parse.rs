@@ -27,7 +27,7 @@ fn load(request: &Request<'_>) -> Result<Vec<u8>, RequestError> {
     match (request.path.to_str(), request.kind) {
         (Some("a"), _) => Ok(b"v a 0 0 0 ;\ninclude b ;\n".to_vec()),
         (Some("b"), _) => Ok(b"def d ; v b 1 0 0 ; end ;".to_vec()),
-        (_, RequestKind::Include | RequestKind::Path | RequestKind::Image) => {
+        (_, RequestKind::Include | RequestKind::Path | RequestKind::Image | RequestKind::Sky) => {
             Err(std::io::Error::from(std::io::ErrorKind::NotFound).into())
         }
         (_, RequestKind::Execute) => {

@@ -33,7 +33,7 @@ pub struct Drawing {
 /// The subject of a picture.
 enum Subject {
     Scene(Arc<Parsed>),
-    Sky(Arc<ugwarp::Opened>, String),
+    Sky(Arc<ugwarp::Opened>, Vec<String>),
 }
 
 #[pymethods]
@@ -142,12 +142,18 @@ impl Drawing {
             if let Subject::Scene(parsed) = subject {
                 sky.or_stated(parsed.scene.sky.as_ref());
             }
-            sky.open(&common, &Context::hosted(&common, name, line.clone(), None, call.clone()))?;
+            let context = Context::hosted(&common, name, line.clone(), None, call.clone());
+            sky.open(&common, &context)?;
+            pipe.files = context.take_files_read();
+            if let Subject::Scene(parsed) = subject {
+                // A program reads scene and sky at once, and records each file once.
+                pipe.files.retain(|file| !parsed.scene.head.files.contains(file));
+            }
         }
         pipe.lines = vec![line.clone()];
         let subject = match subject {
             Subject::Scene(parsed) => FilmSubject::Scene(&parsed.scene),
-            Subject::Sky(opened, origin) => FilmSubject::Panorama(opened, origin),
+            Subject::Sky(opened, files) => FilmSubject::Panorama(opened, files),
         };
         let (rendering, notes) = pipe.draw_with(subject, &**call).map_err(Refused::of)?;
         let mut words: Vec<String> = notes.iter().flat_map(Note::words).collect();

@@ -202,7 +202,8 @@ impl PyScene {
         let mut context = Context::hosted(&common, "read", String::new(), given, call.clone());
         let input = pipe::input(&mut context, &options)?;
         let source = pipe::follow(input, &options, &context)?;
-        let parsed = ugparse::read(&source, &options, None)?;
+        let mut parsed = ugparse::read(&source, &options, None)?;
+        parsed.scene.head.files.extend(context.take_files_read());
         let warning =
             ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
         let warning = warning.map(|found| found.worded().render(false));

@@ -182,7 +182,7 @@ pub fn main() -> ExitCode {
 fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut config = args.config()?;
     let reading = pipe::options(&args.common)?;
-    let source = pipe::read(context, &reading)?;
+    let source = pipe::downstream(pipe::read(context, &reading)?, context);
     if config.light {
         config.sky.open_with((&source, &reading), &args.common, context)?;
     }
@@ -199,7 +199,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         error => failure(error, &source, &parsed.origins),
     })?;
     drop(steps);
-    scene.head.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    let (command, files) = (Some(context.command_line()), &context.take_files_read()[..]);
+    scene.head.record(Provenance { command, files, ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
     }

@@ -76,6 +76,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// The scene with a colour as seen on every vertex that a face or wire uses.

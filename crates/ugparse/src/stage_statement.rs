@@ -78,7 +78,7 @@ fn keyword_span(text: &[u8], span: Span) -> Span {
 }
 
 /// Parses the statement at `span`, parentheses included.
-fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
+pub(crate) fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
     let mut words = Words::new(text, span);
     words.next();
     words.choice(&[VERSION])?;

@@ -27,6 +27,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// Renders a scene at rest.

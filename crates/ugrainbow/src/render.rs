@@ -22,6 +22,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// Renders a scene: to pixels for a display, light, or a vector figure.
