@@ -88,13 +88,14 @@ pub use expand::Origins;
 pub use face_warnings::{FLAT, rest_shapes_warning};
 pub use include::include;
 pub use options::{Limit, Limits, Options};
-pub use origin::{Origin, comes_through_a_pipe, has_history, with_origin};
+pub use origin::{Origin, has_history, with_origin};
 pub use passed_on::{Comment, Item, PassedOn};
 #[cfg(feature = "triangles")]
 pub use read::{read, too_many_polygons};
 pub use request::{Request, RequestError, RequestKind, name_pictures};
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};
+pub use stage_statement::comes_through_a_pipe;
 pub use tidy::tidy;
 pub use writer::{write, write_to, write_with};
 

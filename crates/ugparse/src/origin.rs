@@ -3,10 +3,8 @@
 
 use std::thread;
 
-use ugscene::{Stage, recorded};
+use ugscene::recorded;
 
-use crate::source::Span;
-use crate::stage_statement::{self, is_stage};
 use crate::token;
 
 /// The input of a program that records it.
@@ -58,23 +56,8 @@ pub fn has_history(text: &[u8]) -> bool {
     head(text).0
 }
 
-/// True for the output of a program in the middle of a pipe, which recorded what it read: a text
-/// with a history and a stage. A scene at rest may have a history as well, and somebody may have
-/// changed it since.
-pub fn comes_through_a_pipe(text: &[u8]) -> bool {
-    let (has_history, rest) = head(text);
-    let Ok((after, _)) = token::escape(rest) else { return false };
-    let end = rest.len() - after.len();
-    let span = Span { start: 0, end: u32::try_from(end).unwrap_or(0) };
-    has_history
-        && is_stage(&rest[..end])
-        && stage_statement::read(rest, span).is_ok_and(|stage| {
-            stage != Stage { mixtures: stage.mixtures.clone(), ..Stage::default() }
-        })
-}
-
 /// Whether the comments at the head of a text have a history, and what follows them.
-fn head(text: &[u8]) -> (bool, &[u8]) {
+pub(crate) fn head(text: &[u8]) -> (bool, &[u8]) {
     let mut rest = text.trim_ascii_start();
     let mut has_history = false;
     while let Ok((after, comment)) = token::comment(rest) {

@@ -5,7 +5,8 @@ use std::path::{Component, Path};
 
 use ugpipe::{CommonArgs, Context, Failure};
 
-use crate::origin::{comes_through_a_pipe, has_history};
+use crate::origin::has_history;
+use crate::stage_statement::comes_through_a_pipe;
 use crate::{
     Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, RequestKind, Source,
 };
