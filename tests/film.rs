@@ -87,6 +87,51 @@ const NAMES: [&str; 9] = [
 ];
 
 /// The printed command draws the same bytes, and so does the one that a picture records.
+/// Spheres and the like are exact for rays and polygons elsewhere, in frames as in pipes.
+#[test]
+fn round_faces_are_those_of_the_pipe() {
+    let shell = Shell::new(&[]);
+    let shapes = [
+        "sphere 0 0 0 1",
+        "cylinder 0 0 -1 0 0 1 .7",
+        "tube 0 -.3 -1 0 .3 1 .7",
+        "disc 0 0 0 .2 -1 .3 1",
+    ];
+    for (row, shape) in shapes.into_iter().enumerate() {
+        let name = format!("round{row}.ug");
+        shell.write(&name, format!("{shape}; l .4; l .8 1 -2 2; cam -ep 0 -6 1 -vc 0 0 0 -va 30;"));
+        let mut pictures = Vec::new();
+        for mode in [
+            "-rays",
+            "-xc -sd 1",
+            "-xc",
+            "",
+            "-sd 1",
+            "-sp -li",
+            "-rays -dl",
+            "-xc -sd 1 -dl",
+            "-wf",
+            "-vec -dt svg",
+            "-follow",
+        ] {
+            let film = format!(
+                "ugfilm -frames 2 -vel .5 0..0.6 0 -in -ex 0 {mode} -sz 60 45 -fo f_%d.png {name}"
+            );
+            shell.run(&format!("rm -f f_*; {film}; cp f_2.png film.png; rm f_*"));
+            shell.run(&format!("{film} --print 2 > one.sh; sh -e one.sh"));
+            let frame = shell.read("film.png");
+            assert!(frame == shell.read("f_2.png"), "{shape}: {mode}");
+            let [script, _] = shell.run("ugsheet -qt --history film.png");
+            assert!(script.contains(&name), "{script}");
+            shell.run("ugsheet -qt --history film.png > one.sh; sh -e one.sh > again.png");
+            assert!(frame == shell.read("again.png"), "{shape}: {mode}: {script}");
+            pictures.push(frame);
+        }
+        // Rays meet the shape itself.
+        assert!(pictures[1] != pictures[2], "{shape}");
+    }
+}
+
 #[test]
 fn commands_draw_the_same_whatever_names_are() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);

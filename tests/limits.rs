@@ -103,6 +103,92 @@ fn files_that_a_mesh_names_are_limited() {
     }
 }
 
+/// One rule for the names of files in all statements: from the file that has the statement, with
+/// no `/` at the end.
+#[test]
+fn names_of_files_are_found_alike_in_all_statements() {
+    const BODY: &str = "v a -1 0 -1 (0 1); v b 1 0 -1 (1 1); v c 0 0 1 (.5 0); f (a b c) t;";
+    const EYE: &str = "cam -ep 0 -6 1 -vc 0 0 0;";
+    let shell = Shell::new(&[]);
+    shell.run("mkdir -p in/deep elsewhere");
+    let mut picture = b"PF\n32 16\n-1.0\n".to_vec();
+    picture.extend([0.25_f32; 3 * 32 * 16].iter().flat_map(|level| level.to_le_bytes()));
+    shell.write("in/deep/wall.pfm", &picture);
+    shell.write("in/deep/path.csv", "t,x,y,z\n-9,0,0,0\n9,1,0,0\n");
+    shell.write("in/deep/more.ug", "l .5;");
+    for (statement, file) in [
+        ("c t .5; include NAME;", "more.ug"),
+        ("c t .5; motion m -path NAME;", "path.csv"),
+        ("c t .5; c_tex t NAME;", "wall.pfm"),
+        ("c t .5; sky NAME;", "wall.pfm"),
+    ] {
+        let written = |name: &str| statement.replace("NAME", &format!("\"{name}\""));
+        shell.write("in/deep/scene.ug", format!("{} {BODY} {EYE}", written(file)));
+        shell.write("in/whole.ug", "include deep/scene.ug;");
+        let draw = "ugphoton -qt -aa 1 -sz 8 6 -dt ppm";
+        shell.run(&format!("cd in/deep; {draw} scene.ug > ../../here.ppm"));
+        let pixels = |name: &str| {
+            let file = shell.read(name);
+            file[file.len() - 3 * 48..].to_vec()
+        };
+        let here = pixels("here.ppm");
+        for (folder, scene) in [
+            (".", "in/deep/scene.ug"),
+            (".", "in/whole.ug"),
+            ("in", "whole.ug"),
+            ("in", "./deep/../whole.ug"),
+            ("elsewhere", "../in/whole.ug"),
+        ] {
+            shell.run(&format!("cd {folder}; {draw} {scene} > \"$OLDPWD\"/there.ppm"));
+            assert!(here == pixels("there.ppm"), "{statement}: {folder}, {scene}");
+        }
+        for end in ["/", "/.", "//"] {
+            let name = format!("{file}{end}");
+            shell.write("in/deep/scene.ug", format!("{} {BODY} {EYE}", written(&name)));
+            for program in ["ugphoton -sz 8 6", "ugfilm -rays -frames 1 -sz 8 6 -fo f_%d.png"] {
+                let (status, messages) = shell.fail(&format!("{program} in/whole.ug"));
+                let is_told = messages.contains("Not a directory") && messages.contains(file);
+                assert!(status == Some(1) && is_told, "{statement} {name}: {messages}");
+            }
+        }
+    }
+}
+
+/// What comes from standard input may name files of the current folder alone, so the first program
+/// of a pipe says in which folder it runs.
+#[test]
+fn a_pipe_of_a_scene_elsewhere_says_what_to_do() {
+    const NOTE: &str = "the scene names pictures outside the current folder, which programs \
+                        downstream refuse: run the pipe in the folder of the scene";
+    const REFUSAL: &str = "It is outside the current folder; run the whole pipe in the folder of \
+                           the scene, or if you trust the scene";
+    let shell = Shell::new(&[]);
+    shell.run("mkdir elsewhere");
+    shell.write("wall.pfm", [&b"PF\n32 16\n-1.0\n"[..], &[0; 12 * 32 * 16]].concat());
+    let body = "v a -1 0 -1 (0 1); v b 1 0 -1 (1 1); v c 0 0 1 (.5 0); c t .5; \
+                cam -ep 0 -6 1 -vc 0 0 0;";
+    for (scene, pipe) in [
+        ("c_tex t wall.pfm; f (a b c) t;", "uglorentz scene.ug | ugrainbow -xc -sz 8 6"),
+        ("f (a b c); sky wall.pfm;", "uglorentz scene.ug | ugdoppler | ugrainbow -sz 8 6"),
+    ] {
+        shell.write("scene.ug", format!("{body} {scene}"));
+        let [_, messages] = shell.run(&format!("{pipe} > here.png"));
+        assert!(!messages.contains("outside"), "{messages}");
+        let outside = pipe.replace("scene.ug", "../scene.ug");
+        let (_, messages) = shell.fail(&format!("cd elsewhere; {outside} > there.png"));
+        assert!(messages.contains(NOTE) && messages.contains(REFUSAL), "{messages}");
+        let allowed = outside.replace("-sz", "--allow-outside -sz");
+        shell.run(&format!("cd elsewhere; {allowed} > ../there.png"));
+        assert!(shell.pixels("here.png") == shell.pixels("there.png"));
+        let film = "ugfilm -frames 1 -sz 8 6 -fo f_%d.png";
+        let [_, messages] = shell.run(&format!("cd elsewhere; {film} --print ../scene.ug"));
+        assert!(messages.contains(NOTE), "{messages}");
+        let films = format!("{film} ../scene.ug; {film} --print -rays ../scene.ug");
+        let [_, messages] = shell.run(&format!("cd elsewhere; {films}"));
+        assert!(!messages.contains("outside"), "{messages}");
+    }
+}
+
 #[test]
 fn files_that_a_scene_names_are_in_its_folder() {
     let shell = folder();
@@ -124,7 +210,9 @@ fn files_that_a_scene_names_are_in_its_folder() {
         shell.write("in/scene.ug", format!("include {file} ;"));
         let named = format!("ugparse flatten in/scene.ug {options}");
         // On standard input, the current folder is that of the input.
-        for line in [named, format!("cd in; ugparse flatten {options} < scene.ug")] {
+        let piped = format!("cd in; ugparse flatten {options} < scene.ug");
+        let of_pipe = expected.replace("the folder of the input", "the current folder");
+        for (line, expected) in [(named, expected), (piped, &*of_pipe)] {
             let output =
                 check(&shell, LITTLE, &line, status, if status == 0 { "" } else { expected });
             assert!(status != 0 || output == expected, "{file}: {output}");

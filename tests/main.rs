@@ -15,6 +15,7 @@ mod exact;
 mod faces;
 mod figures;
 mod film;
+mod film_inputs;
 mod golden;
 mod help;
 mod history;

@@ -84,6 +84,39 @@ fn files_are_those_of_a_shell() {
     }
 }
 
+/// Round faces, which are exact for rays and polygons elsewhere.
+#[test]
+fn round_faces_are_those_of_a_shell() {
+    let shell = Shell::new(&[]);
+    let shapes = [
+        "sphere 0 0 0 1",
+        "cylinder 0 0 -1 0 0 1 .7",
+        "tube 0 -.3 -1 0 .3 1 .7",
+        "disc 0 0 0 .2 -1 .3 1",
+    ];
+    for shape in shapes {
+        shell.write(
+            "round.ug",
+            format!("{shape}; l .4; l .8 1 -2 2; cam -ep 0 -6 1 -vc 0 0 0 -va 30;"),
+        );
+        let mut studio = studio(&shell, &["round.ug"]);
+        for line in [
+            "uglorentz -vel .5 .3 0 -in round.ug | ugdoppler | ugrainbow -sz 60 45 -fo out.png",
+            "uglorentz -vel .5 .3 0 -in -sd 1 round.ug | ugdoppler | ugrainbow -sz 60 45 -fo out.png",
+            "uglorentz -vel .5 .3 0 -in -sd 1 round.ug | ugrainbow -xc -sz 60 45 -fo out.png",
+            "uglorentz -vel .5 .3 0 -in -sd 1 round.ug | ugrainbow -xc -dl -sz 60 45 -fo out.png",
+            "uglorentz -vel .5 .3 0 -in round.ug | ugrainbow -vec -sz 60 45 -fo out.svg",
+            "ugdoppler round.ug | ugrainbow -sz 60 45 -fo out.png",
+            "ugrainbow -ep 0 -4 2 -sz 60 45 round.ug -fo out.png",
+            "ugphoton -vel .5 .3 0 -in -sz 60 45 -aa 1 round.ug -fo out.png",
+        ] {
+            shell.run(line);
+            let output = line.split_whitespace().last().unwrap();
+            assert!(studio.file(&commands(line)).unwrap() == shell.read(output), "{shape}: {line}");
+        }
+    }
+}
+
 /// Keywords are the longest names of options; files and numbers as Python has them.
 #[test]
 fn lines_in_python_have_every_option() {

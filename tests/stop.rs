@@ -93,7 +93,7 @@ fn panoramas_are_stopped() {
     check(|progress| ugwarp::render_with(&sky, &config, progress));
     let opened = ugwarp::Opened { panorama: Some(sky), ..ugwarp::Opened::default() };
     // A PNG file is compressed while it is drawn.
-    let metadata = ugwarp::metadata(None, ugwarp::PROVENANCE);
+    let metadata = ugwarp::metadata(&[], ugwarp::PROVENANCE);
     check(|progress| ugwarp::run(&config, &opened, &metadata, progress));
 }
 

@@ -309,6 +309,36 @@ fn no_crate_spells_the_name_of_a_sibling_program() {
     assert!(n_literals > 500, "{n_literals} literals");
 }
 
+/// What a program reads is opened by `Context` of ugpipe, which reports it for the record in the
+/// output, so that a film knows all files that its frames are made of.
+#[test]
+fn files_are_opened_in_one_place() {
+    const OPENS: [&str; 4] = ["fs::read(", "fs::read_to_string(", "File::open", "OpenOptions"];
+    /// Frames of films, and the file beside them.
+    const FRAMES: [&str; 2] =
+        ["crates/ugfilm/src/frame_files.rs", "crates/ugsheet/src/film/footage.rs"];
+    let others = ["ugpipe", "ugtesting", "xtask", "ugtests"];
+    let mut findings = Vec::new();
+    let mut n_files = 0;
+    for (_, folder) in crates().into_iter().filter(|(krate, _)| !others.contains(&&**krate)) {
+        for path in files(&folder.join("src")).into_iter().filter(|path| has_ending(path, &["rs"]))
+        {
+            n_files += 1;
+            if FRAMES.iter().any(|exempt| path.ends_with(exempt)) {
+                continue;
+            }
+            let text = read(&path);
+            let production = text.split("#[cfg(test)]").next().unwrap_or_default();
+            let opens = |line: &str| OPENS.iter().any(|open| line.contains(open));
+            findings.extend(production.lines().enumerate().filter(|(_, line)| opens(line)).map(
+                |(idx, _)| format!("{}: opened past ugpipe's Context", place(&path, idx + 1)),
+            ));
+        }
+    }
+    assert_none(&findings);
+    assert!(n_files > 300, "{n_files} files");
+}
+
 /// Numbers of equations in a line: (P3), and each of (P10, P12) or (P1)-(P3).
 /// Messages leave through `messages` of ugpipe, where text from outside is made printable, and
 /// through the progress bar; reports through `write_text` and `write_json`. What is printed as it

@@ -8,13 +8,8 @@ use ugparse::{
 libfuzzer_sys::fuzz_target!(|text: &[u8]| {
     // The length of the input selects the options. Rendering of diagnostics takes most of the time,
     // so it is done for two of eight lengths, once with and once without colour.
-    let keeps_rounds = text.len() % 5 > 1;
-    let options = Options {
-        lax: text.len() % 2 == 0,
-        execute: text.len() % 3 > 0,
-        keeps_rounds,
-        limits: limits(),
-    };
+    let options =
+        Options { lax: text.len() % 2 == 0, execute: text.len() % 3 > 0, limits: limits() };
     let messages = read(text, &options).unwrap_or_else(|findings| findings);
     if text.len() % 8 < 2 {
         std::hint::black_box(messages.render(text.len() % 2 == 0));
@@ -32,7 +27,7 @@ fn load(request: &Request<'_>) -> Result<Vec<u8>, RequestError> {
     match (request.path.to_str(), request.kind) {
         (Some("a"), _) => Ok(b"v a 0 0 0 ;\ninclude b ;\n".to_vec()),
         (Some("b"), _) => Ok(b"def d ; v b 1 0 0 ; end ;".to_vec()),
-        (_, RequestKind::Include | RequestKind::Path | RequestKind::Image) => {
+        (_, RequestKind::Include | RequestKind::Path | RequestKind::Image | RequestKind::Sky) => {
             Err(std::io::Error::from(std::io::ErrorKind::NotFound).into())
         }
         (_, RequestKind::Execute) => {

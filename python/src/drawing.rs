@@ -34,7 +34,7 @@ pub struct Drawing {
 enum Subject {
     /// A scene, and the files that it named.
     Scene(Arc<Parsed>, Vec<Input>),
-    Sky(Arc<ugwarp::Opened>, String),
+    Sky(Arc<ugwarp::Opened>, Vec<String>),
 }
 
 #[pymethods]
@@ -148,11 +148,16 @@ impl Drawing {
                 context = context.beside(files.clone());
             }
             sky.open(&common, &context)?;
+            pipe.files = context.take_files_read();
+            if let Subject::Scene(parsed, _) = subject {
+                // A program reads scene and sky at once, and records each file once.
+                pipe.files.retain(|file| !parsed.scene.head.files.contains(file));
+            }
         }
         pipe.lines = vec![line.clone()];
         let subject = match subject {
             Subject::Scene(parsed, _) => FilmSubject::Scene(&parsed.scene),
-            Subject::Sky(opened, origin) => FilmSubject::Panorama(opened, origin),
+            Subject::Sky(opened, files) => FilmSubject::Panorama(opened, files),
         };
         let (rendering, notes) = pipe.draw_with(subject, &**call).map_err(Refused::of)?;
         let mut words: Vec<String> = notes.iter().flat_map(Note::words).collect();

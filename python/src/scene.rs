@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ffi::OsString;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use clap::Parser;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -13,7 +13,7 @@ use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{Error, FilmItem, Note, ParsedCommand, Program, ProgramError};
 use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
 use ugpipe::{CommonArgs, Context, Input, MAX_INPUT, ToolArgs, Words, parse_words};
-use ugscene::{BodyBoxes, CameraOptions, Provenance, StatedSky};
+use ugscene::{BodyBoxes, CameraOptions, Provenance, Scene, StatedSky, TooManyPolygons};
 
 use crate::call::{self, Call};
 use crate::error::{Refused, wrong};
@@ -22,6 +22,8 @@ use crate::error::{Refused, wrong};
 #[pyclass(frozen, module = "uglorentz._core", name = "Scene")]
 pub struct PyScene {
     parsed: Arc<Parsed>,
+    /// The same with its round faces as polygons, for arrays; nothing of a scene without them.
+    polygons: OnceLock<Result<Scene, TooManyPolygons>>,
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
     /// What it, or the scene from which programs made it, was read from.
@@ -145,12 +147,9 @@ impl PyScene {
     }
 
     /// Numbers of vertices, faces and wires.
-    fn counts(&self) -> [usize; 3] {
-        [
-            self.parsed.scene.vertices.len(),
-            self.parsed.scene.faces.len(),
-            self.parsed.scene.wires.len(),
-        ]
+    fn counts(&self) -> PyResult<[usize; 3]> {
+        let scene = self.polygons()?;
+        Ok([scene.vertices.len(), scene.faces.len(), scene.wires.len()])
     }
 
     /// True for positions as seen, and for colours as seen.
@@ -166,31 +165,22 @@ impl PyScene {
     }
 
     /// The names of the vertices.
-    fn names(&self) -> Vec<&str> {
-        self.parsed
-            .scene
-            .vertices
-            .iter()
-            .map(|vertex| self.parsed.scene.names.get(vertex.name))
-            .collect()
+    fn names(&self) -> PyResult<Vec<&str>> {
+        let scene = self.polygons()?;
+        Ok(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect())
     }
 
     /// The positions of the vertices, (n, 3).
     fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self
-            .parsed
-            .scene
-            .vertices
-            .iter()
-            .flat_map(|vertex| vertex.position.to_array())
-            .collect();
+        let vertices = &self.polygons()?.vertices;
+        let rows = vertices.iter().flat_map(|vertex| vertex.position.to_array()).collect();
         table(py, rows, 3)
     }
 
     /// The corners of all faces, one contour after the other, and the number of corners of each
     /// contour; the number of contours of each face.
-    fn faces<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<u32>>; 3] {
-        let scene = &self.parsed.scene;
+    fn faces<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<u32>>; 3]> {
+        let scene = self.polygons()?;
         let (mut corners, mut sizes, mut contours) = (Vec::new(), Vec::new(), Vec::new());
         for face in &scene.faces {
             contours.push(face.contours.len() as u32);
@@ -200,12 +190,12 @@ impl PyScene {
                 sizes.push(contour.len() as u32);
             }
         }
-        [corners, sizes, contours].map(|column| PyArray1::from_vec(py, column))
+        Ok([corners, sizes, contours].map(|column| PyArray1::from_vec(py, column)))
     }
 
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (scene, time) = (&self.parsed.scene, self.time.unwrap_or(0.0));
+        let (scene, time) = (self.polygons()?, self.time.unwrap_or(0.0));
         let rows = call::run(py, None, None, |_| {
             ugscene::measure(scene, ugscene::eye(scene, None), time)
         })?;
@@ -234,6 +224,20 @@ fn table(
 }
 
 impl PyScene {
+    /// The scene as arrays show it: with polygons in the place of round faces.
+    fn polygons(&self) -> PyResult<&Scene> {
+        let scene = &self.parsed.scene;
+        if !scene.has_rounds() {
+            return Ok(scene);
+        }
+        let polygons = self.polygons.get_or_init(|| {
+            let mut cut = scene.clone();
+            let eye = cut.camera().and_then(|camera| camera.eye);
+            ugscene::cut_rounds_at_rest(&mut cut, eye).map(|()| cut)
+        });
+        polygons.as_ref().map_err(|error| wrong(error.to_string()))
+    }
+
     fn open(
         words: Vec<String>,
         path: Option<PathBuf>,
@@ -260,7 +264,8 @@ impl PyScene {
             Ok(answer)
         })?;
         let source = Arc::new(source);
-        let parsed = ugparse::read(&source, &options, None)?;
+        let mut parsed = ugparse::read(&source, &options, None)?;
+        parsed.scene.head.files.extend(context.take_files_read());
         // Pictures read it; if it cannot be read, they say so.
         if let Some(StatedSky { file, .. }) = &parsed.scene.sky
             && let Ok(text) = context.read_named(Path::new(file), MAX_INPUT)
@@ -274,7 +279,15 @@ impl PyScene {
         notes.extend(notes_on(parsed.warnings.clone()));
         let text = (text != source.text).then_some(text);
         let origin = Arc::new(ReadFrom { words, path, text, source: source.clone(), files });
-        Ok(Self { parsed: Arc::new(parsed), source, origin, time: None, notes, warning })
+        Ok(Self {
+            parsed: Arc::new(parsed),
+            polygons: OnceLock::new(),
+            source,
+            origin,
+            time: None,
+            notes,
+            warning,
+        })
     }
 
     /// The files that the scene named when it was read.
@@ -331,6 +344,7 @@ impl PyScene {
         };
         Ok(Self {
             parsed: Arc::new(parsed),
+            polygons: OnceLock::new(),
             source: Arc::new(source),
             origin: self.origin.clone(),
             time,

@@ -10,11 +10,11 @@ use crate::call::{self, Call};
 use crate::error::Refused;
 use crate::scene::{input, words_of_system};
 
-/// A sky that was read, with the words for its origin in the record of a picture.
+/// A sky that was read, with the files that were read for it in the record of a picture.
 #[pyclass(frozen, module = "uglorentz._core", name = "Sky")]
 pub struct PySky {
     opened: Arc<ugwarp::Opened>,
-    origin: String,
+    files: Vec<String>,
     /// What was noticed when it was read.
     #[pyo3(get)]
     notes: Vec<String>,
@@ -57,12 +57,11 @@ impl PySky {
         let opened = args.open(&input, &context)?;
         let mut notes = call.take_notes();
         notes.extend(opened.notes.iter().cloned());
-        let origin = opened.origin(&input, &context);
-        Ok(Self { opened: Arc::new(opened), origin, notes })
+        Ok(Self { opened: Arc::new(opened), files: context.take_record(&input), notes })
     }
 
-    /// The sky, and the words for its origin.
-    pub fn subject(&self) -> (Arc<ugwarp::Opened>, String) {
-        (self.opened.clone(), self.origin.clone())
+    /// The sky, and the record of the files that were read for it.
+    pub fn subject(&self) -> (Arc<ugwarp::Opened>, Vec<String>) {
+        (self.opened.clone(), self.files.clone())
     }
 }

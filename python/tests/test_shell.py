@@ -51,6 +51,27 @@ def test_formats(shell, format, tmp_path):
         assert file.read_bytes() == shell(f"{pipe} {SIZE} -vec -dt svg")
 
 
+@pytest.mark.parametrize("shape", [
+    "sphere 0 0 0 1", "cylinder 0 0 -1 0 0 1 .7", "tube 0 -.3 -1 0 .3 1 .7", "disc 0 0 0 .2 -1 .3 1",
+])
+def test_round_faces(shell, shape, tmp_path):
+    """They are exact for rays and polygons elsewhere; arrays have the polygons."""
+    file = tmp_path / "round.ug"
+    file.write_text(f"{shape}; l .4; l .8 1 -2 2; cam -ep 0 -6 1 -vc 0 0 0 -va 30;")
+    scene = ug.Scene.read(file)
+    moving = {"velocity": (0.5, 0.3, 0), "keep_in_view": True}
+    moved = f"uglorentz -vel 0.5 0.3 0 -in {file}"
+    small, lorentz = {"size": (60, 45)}, scene.lorentz(**moving)
+    exact = scene.lorentz(sd=1, **moving)
+    assert lorentz.doppler().render(**small).to_bytes() == shell(f"{moved} | ugdoppler | ugrainbow -sz 60 45")
+    assert exact.render(xc=True, **small).to_bytes() == shell(f"{moved} -sd 1 | ugrainbow -xc -sz 60 45")
+    assert exact.doppler().render(**small).to_bytes() == shell(f"{moved} -sd 1 | ugdoppler | ugrainbow -sz 60 45")
+    options = f"-vel 0.5 0.3 0 -in -ex 0 -aa 1 -sz 60 45 {file}"
+    photon = scene.photon(exposure=0, samples=1, **moving, **small).to_bytes()
+    assert photon == shell(f"ugphoton {options}")
+    assert len(scene.vertices) > 8 and len(scene.vertices) == len(scene.names)
+
+
 def test_text_between_programs(shell):
     scene = ug.Scene.read("scenes/teapot.ug").lorentz(velocity=(0.5, 0, 0))
     assert scene.text().encode() == shell("uglorentz -vel 0.5 0 0 scenes/teapot.ug")

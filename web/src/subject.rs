@@ -23,7 +23,7 @@ pub struct Subject {
 
 enum Kind {
     Scene(Box<Scene>, Box<BodyBoxes>),
-    Sky(Box<ugwarp::Opened>, String),
+    Sky(Box<ugwarp::Opened>, Vec<String>),
 }
 
 /// How a scene is seen.
@@ -70,17 +70,17 @@ impl Subject {
             let opened = args.open(&input, context)?;
             let notes =
                 opened.notes.iter().map(|note| format!("{}: {note}", commands.program())).collect();
-            let origin = opened.origin(&input, context);
             return Ok(Self {
                 key,
-                kind: Kind::Sky(Box::new(opened), origin),
+                kind: Kind::Sky(Box::new(opened), context.take_record(&input)),
                 sky: SkySource::None,
                 notes,
             });
         }
         let reading = pipe::options(&commands.common)?;
         let source = pipe::read(context, &reading)?;
-        let parsed = ugparse::read(&source, &reading, commands.camera()).map_err(pipe::refused)?;
+        let parsed = ugparse::read(&source, &reading, commands.camera());
+        let mut parsed = parsed.map_err(pipe::refused)?;
         let is_warned = !parsed.warnings.is_empty();
         let notes =
             is_warned.then(|| format!("{}: {}", commands.program(), parsed.warnings.report()));
@@ -91,6 +91,7 @@ impl Subject {
             sky.open(&commands.common, context)?;
         }
         let sky = pipe.sky().map_or(SkySource::None, |sky| sky.source.clone());
+        parsed.scene.head.files.extend(context.take_files_read());
         let kind = Kind::Scene(Box::new(parsed.scene), Box::new(boxes));
         Ok(Self { key, kind, sky, notes: notes.into_iter().collect() })
     }
@@ -107,7 +108,7 @@ impl Subject {
     pub fn film_subject(&self) -> FilmSubject<'_> {
         match &self.kind {
             Kind::Scene(scene, _) => FilmSubject::Scene(scene),
-            Kind::Sky(opened, origin) => FilmSubject::Panorama(opened, origin),
+            Kind::Sky(opened, files) => FilmSubject::Panorama(opened, files),
         }
     }
 

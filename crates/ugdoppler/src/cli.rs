@@ -182,7 +182,7 @@ pub fn main() -> ExitCode {
 fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut config = args.config()?;
     let reading = pipe::options(&args.common)?;
-    let source = pipe::read(context, &reading)?;
+    let source = pipe::downstream(pipe::read(context, &reading)?, context);
     if config.light {
         config.sky.open_with((&source, &reading), &args.common, context)?;
     }
@@ -190,10 +190,17 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     steps.step("reading", 0);
     let parsed =
         ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
+    let first_round = parsed.first_round();
     let applied = apply_with(parsed.scene, &config, &steps);
-    let (mut scene, notes) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
+    let (mut scene, notes) = applied.map_err(|error| match error {
+        Error::TooManyPolygons(error) => {
+            pipe::refused(ugparse::too_many_polygons(&source, first_round, error))
+        }
+        error => failure(error, &source, &parsed.origins),
+    })?;
     drop(steps);
-    scene.head.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    let (command, files) = (Some(context.command_line()), &context.take_files_read()[..]);
+    scene.head.record(Provenance { command, files, ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
     }
@@ -249,7 +256,9 @@ impl Words for Error {
             Self::Camera(error) => error.words(),
             Self::TooManyLights { .. } => format!("-li computes {self}"),
             Self::Sky(error) => error.words(),
-            Self::VertexAtEye { .. } | Self::Stopped(_) => self.to_string(),
+            Self::TooManyPolygons(_) | Self::VertexAtEye { .. } | Self::Stopped(_) => {
+                self.to_string()
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 use ugpipe::Stopped;
-use ugscene::{CameraError, StageError, VertexId};
+use ugscene::{CameraError, StageError, TooManyPolygons, VertexId};
 use ugskybox::SkyError;
 
 /// Why a scene has no colours as seen.
@@ -27,6 +27,9 @@ pub enum Error {
     /// The eye is the view centre of the scene's camera.
     #[error(transparent)]
     Camera(#[from] CameraError),
+    /// Round faces would become too many polygons.
+    #[error(transparent)]
+    TooManyPolygons(#[from] TooManyPolygons),
     /// A vertex of a moving body lies exactly at the eye, where it has no direction and so no
     /// Doppler factor.
     #[error("vertex `{name}` lies at the eye, where no direction to it exists")]

@@ -77,6 +77,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// The scene with a colour as seen on every vertex that a face or wire uses.
@@ -97,6 +98,8 @@ pub fn apply_with(
     progress: &dyn Progress,
 ) -> Result<(Scene, Vec<Note>), Error> {
     progress.step("colouring", 0);
+    let of_scene = scene.camera().and_then(|camera| camera.eye);
+    ugscene::cut_rounds_at_rest(&mut scene, config.eye.or(of_scene))?;
     scene.infrared = config.shift.infrared();
     uglight::freeze_colors_at_zero(&mut scene);
     // The light of coloured lamps multiplies spectra, which are not in the output.

@@ -351,10 +351,8 @@ fn exposure(
     context: &Context,
 ) -> Result<MeasuredExposure, Failure> {
     film.size()?;
-    let key = names.map_or(Ok(None), |_| film.exposure_key(follows))?;
-    let Some((names, key)) = names.zip(key) else {
-        return film.exposure(follows, &context.steps());
-    };
+    let Some(names) = names else { return film.exposure(follows, &context.steps()) };
+    let key = film.exposure_key(follows)?;
     if let Some(stops) = kept_exposure(names, &key) {
         return Ok(MeasuredExposure { stops, ..MeasuredExposure::default() });
     }
@@ -492,8 +490,8 @@ fn ranges_of(numbers: &[u32]) -> String {
 enum Read {
     /// A scene.
     Scene(Box<Scene>),
-    /// A panorama, and the words for its origin.
-    Panorama(Box<ugwarp::Opened>, String),
+    /// A panorama, and the record of the files that were read for it.
+    Panorama(Box<ugwarp::Opened>, Vec<String>),
 }
 
 impl Read {
@@ -503,14 +501,13 @@ impl Read {
             let input = context.input()?;
             let opened = args.panorama(script, &input, context)?;
             opened.notes.iter().for_each(|note| context.note(note));
-            let origin = opened.origin(&input, context);
-            return Ok(Self::Panorama(Box::new(opened), origin));
+            return Ok(Self::Panorama(Box::new(opened), context.take_record(&input)));
         }
         let reading = pipe::options(&args.common)?;
         let input = pipe::input(context, &reading)?;
         let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;
         let camera = script.fixed("cam");
-        let parsed = ugparse::read(&source, &reading, camera.as_deref())
+        let mut parsed = ugparse::read(&source, &reading, camera.as_deref())
             .map_err(|findings| refused_sky(&source).unwrap_or_else(|| pipe::refused(findings)))?;
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
@@ -519,6 +516,11 @@ impl Read {
             script.draw_textures();
         }
         script.open_sky((&source, &reading), &args.common, context)?;
+        parsed.scene.head.files.extend(context.take_files_read());
+        if args.print.is_some() && !args.pipe.rays {
+            let note = pipe::outside_files(&parsed.scene, context);
+            note.into_iter().for_each(|note| context.note(note));
+        }
         if let Some(camera) = default_camera(&parsed.scene, script)? {
             context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));
             let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();
@@ -532,7 +534,7 @@ impl Read {
     fn subject(&self) -> FilmSubject<'_> {
         match self {
             Self::Scene(scene) => FilmSubject::Scene(scene),
-            Self::Panorama(panorama, origin) => FilmSubject::Panorama(panorama, origin),
+            Self::Panorama(panorama, files) => FilmSubject::Panorama(panorama, files),
         }
     }
 }
@@ -590,6 +592,8 @@ impl Args {
             let file = context.input_file(path)?;
             let text = String::from_utf8_lossy(&file.text);
             keys::add(&mut script, &file.name, &text).map_err(Failure::Failed)?;
+            // Its numbers are in the commands of the frames, which do not read it.
+            context.take_files_read();
         }
         Ok(script)
     }

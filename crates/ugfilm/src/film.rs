@@ -15,7 +15,7 @@ use ugsheet::{Config, Motion, Picture, Sheet};
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
 use crate::error::Error;
 use crate::exposure::smoothed;
-use crate::frame_files::{claim, is_done, remove_stale_claims};
+use crate::frame_files::{claim, is_done, read_done, remove_stale_claims};
 use crate::levels::WrongBrightness;
 use crate::note::Note;
 use crate::pipe::{DrawnLight, FilmSubject, Pipe};
@@ -265,21 +265,17 @@ impl Film<'_> {
         self.spread(if follows { MOST_METERED } else { MOST_MEASURED })
     }
 
-    /// A hash of all that the exposure depends on: the commands of the measured frames, and the
-    /// scene. `None` for panoramas, whose files are not kept.
+    /// A hash of all that the exposure depends on: what the files of the measured frames record.
     ///
     /// # Errors
     /// The commands of a frame are wrong.
-    pub fn exposure_key(&self, follows: bool) -> Result<Option<String>, Failure> {
-        let FilmSubject::Scene(scene) = self.subject else { return Ok(None) };
+    pub fn exposure_key(&self, follows: bool) -> Result<String, Failure> {
         let mut text = format!("{} {follows}", env!("CARGO_PKG_VERSION"));
         for frame in self.metered(follows) {
             text.push('\n');
-            text += &about(frame, self.script.commands(f64::from(frame), &[]))?.line(None, None);
+            text += &about(frame, self.pipe(frame))?.metadata(self.subject).comment;
         }
-        let mut bytes = text.into_bytes();
-        bytes.extend(ugparse::write(scene));
-        Ok(Some(sha256(&bytes)))
+        Ok(sha256(text.as_bytes()))
     }
 
     /// Writes frames as numbered files. Frames whose files were made by the same commands of the
@@ -326,13 +322,8 @@ impl Film<'_> {
         if let Some((path, metadata)) = &kept
             && is_done(path, metadata)
         {
-            let read = std::fs::read(path);
-            let read =
-                read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
-            return Ok((
-                read_png(&read, &PictureLimits::default()).map_err(Failure::failed)?.0,
-                Outcome::Done,
-            ));
+            let frame = read_png(&read_done(path)?, &PictureLimits::default());
+            return Ok((frame.map_err(Failure::failed)?.0, Outcome::Done));
         }
         let (picture, notes) = self.draw(frame, shot)?;
         if let Some((path, _)) = &kept {

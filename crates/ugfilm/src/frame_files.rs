@@ -69,6 +69,14 @@ pub fn is_done(path: &Path, metadata: &Metadata) -> bool {
     history.is_ok_and(|history| history.is_some_and(|history| history == metadata.comment))
 }
 
+/// Reads the file of a frame that is done.
+///
+/// # Errors
+/// [`Failure::Read`].
+pub fn read_done(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| Failure::Read { name: path.display().to_string(), error })
+}
+
 /// The history in a file; `None` if it has none, or is a PNG file without its end. Of a PNG file
 /// only the beginning and the end are read.
 fn history_of_whole(mut file: File) -> io::Result<Option<String>> {

@@ -89,7 +89,7 @@ pub const EXACT_PIPE: &[&Tool] = &[LORENTZ, RAINBOW];
 pub struct PipeArgs {
     /// Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs
     #[arg(long, conflicts_with = "warp")]
-    rays: bool,
+    pub rays: bool,
 
     /// Draw views of a panorama, a picture, instead of a scene
     #[arg(long)]

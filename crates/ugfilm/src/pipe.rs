@@ -15,8 +15,8 @@ use crate::program::{FilmItem, Program};
 pub enum FilmSubject<'s> {
     /// A scene at rest.
     Scene(&'s Scene),
-    /// A panorama, with the words for its origin.
-    Panorama(&'s ugwarp::Opened, &'s str),
+    /// A panorama, with hash and name of every file that it was read from, the first one first.
+    Panorama(&'s ugwarp::Opened, &'s [String]),
 }
 
 /// The light of a frame, and the notes of the programs that drew it.
@@ -31,13 +31,16 @@ pub struct Pipe {
     /// The command lines of the programs for the history of the picture; none are recorded if it is
     /// empty.
     pub lines: Vec<String>,
+    /// Hash and name of every file that was read for it beside those of its subject.
+    pub files: Vec<String>,
 }
 
 impl Pipe {
     /// Programs in their order, the last of which draws.
     pub fn new(mut programs: Vec<Program>) -> Self {
         let picture = programs.last_mut().and_then(Program::picture).map(std::mem::take);
-        Self { programs, picture: picture.unwrap_or_default(), lines: Vec::new() }
+        let picture = picture.unwrap_or_default();
+        Self { programs, picture, lines: Vec::new(), files: Vec::new() }
     }
 
     /// The programs with their options, but those of the picture.
@@ -59,10 +62,9 @@ impl Pipe {
     pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
         let mut head = match subject {
             FilmSubject::Scene(scene) => scene.head.clone(),
-            FilmSubject::Panorama(_, origin) => {
-                Head { origin: Some(origin.to_owned()), ..Head::default() }
-            }
+            FilmSubject::Panorama(_, files) => Head { files: files.to_vec(), ..Head::default() },
         };
+        head.files.extend(self.files.iter().cloned());
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
         for (filter, line) in filters.iter().zip(&self.lines) {
             head.record(Provenance { command: Some(line), ..filter.provenance() });

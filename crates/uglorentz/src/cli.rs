@@ -134,13 +134,13 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &reading)?;
     let steps = context.steps();
     steps.step("reading", 0);
-    let keeping = ugparse::Options { keeps_rounds: true, ..reading };
     let parsed =
-        ugparse::read(&source, &keeping, config.camera.name.as_deref()).map_err(pipe::refused)?;
+        ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    scene.head.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    let (command, files) = (Some(context.command_line()), &context.take_files_read()[..]);
+    scene.head.record(Provenance { command, files, ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
     }
@@ -158,7 +158,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let note = boxes.note(&scene, &config.motion(), &camera, config.size);
         note.iter().for_each(|note| context.note(&note.words()));
     }
-    pipe::unnamed_textures(&scene).into_iter().for_each(|note| context.note(note));
+    let files_notes = [pipe::unnamed_textures(&scene), pipe::outside_files(&scene, context)];
+    files_notes.into_iter().flatten().for_each(|note| context.note(note));
     report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {
         context.steps().step("measuring", 0);

@@ -241,7 +241,9 @@ pub fn main() -> ExitCode {
         let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
         let input =
             MeshFile::new(read.name, read.text).with_history(pipe::origin(context), provenance);
+        let files_read = || context.take_files_read();
         let input = input.with_files(&read_file).with_includes(&resolve_includes);
+        let input = MeshFile { files_read: &files_read, ..input };
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),
             Error::NothingToConvert | Error::NotMesh => Failure::usage(error.words()),

@@ -54,6 +54,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// The options of a conversion.
@@ -107,8 +108,10 @@ pub struct MeshFile<'a> {
     pub read_file: ReadFile<'a>,
     /// Resolves the `include` statements of UniGrafix.
     pub resolve_includes: ResolveIncludes<'a>,
-    /// The origin with which the history begins, unless a scene has one.
+    /// The record of its bytes in the history of the scene.
     pub origin: Option<Origin>,
+    /// The record of the files that were read with it, once they are.
+    pub files_read: &'a dyn Fn() -> Vec<String>,
     /// For the history of the scene.
     pub provenance: Provenance<'a>,
 }
@@ -123,6 +126,7 @@ impl<'a> MeshFile<'a> {
             read_file: &|_, _| Err(io::ErrorKind::NotFound.into()),
             resolve_includes: &Ok,
             origin: None,
+            files_read: &Vec::new,
             provenance: PROVENANCE,
         }
     }
@@ -194,7 +198,11 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     if config.stage && config.target == Target::Ug {
         staging::add(&mut scene);
     }
-    scene.head.record(input.provenance);
+    if input.name.starts_with('<') && !scene.head.history().is_empty() {
+        // The program upstream recorded what it read.
+        scene.head.files.clear();
+    }
+    scene.head.record(Provenance { files: &(input.files_read)(), ..input.provenance });
     let mut pictures = Vec::new();
     let mut lacks_pictures = false;
     if config.target == Target::Ug {
@@ -223,12 +231,12 @@ fn load(config: &Config, format: MeshFormat, input: &MeshFile) -> Result<Loaded,
     let (read, origin) = ugparse::with_origin(input.origin.as_ref(), &input.bytes, read);
     let MeshScene { mut scene, warnings, notes, .. } =
         read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
-    scene.head.origin = origin;
+    scene.head.files = origin.into_iter().collect();
     Ok(Loaded { scene, warnings, notes, diagnostics: None })
 }
 
 fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
-    let origin = input.origin.clone().filter(|_| !ugparse::has_history(&input.bytes));
+    let origin = input.origin.clone().filter(|_| !ugparse::comes_through_a_pipe(&input.bytes));
     let source = Source::new(input.name.clone(), input.bytes.clone()).with_origin(origin);
     let source = (input.resolve_includes)(source)?;
     let mut parsed = ugparse::parse(&source, &config.reading)?;

@@ -10,11 +10,14 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
+use ugscene::NAMED_SKIES;
+
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
 use crate::grammar::is_keyword;
 use crate::options::{Limit, Options};
+use crate::origin::Origin;
 use crate::reader::{self, RequestStatement};
 use crate::refuse_errors;
 use crate::request::{Request, RequestError, RequestKind, relative_to, without_dots};
@@ -22,12 +25,13 @@ use crate::source::{Images, LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
-/// programs, the file name after `-path` by the events in that file, and that of a picture by its
-/// path from the current folder; the bytes of pictures are kept for the scene. With the feature
+/// programs, the file name after `-path` by the events in that file, and that of a picture or sky by
+/// its path from the current folder; the bytes of pictures are kept for the scene. With the feature
 /// `cli` it reads a mesh of another format, with the files that it names, and included meshes
 /// become statements.
 ///
-/// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
+/// `load` returns the requested bytes. It is called for a program only with [`Options::execute`],
+/// and not for a sky.
 /// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)
 /// to the current folder, in the output of a program to the folder of the program. A file contains
 /// whole statements: a definition that begins in it ends in it.
@@ -56,11 +60,11 @@ pub fn include(
     if let Some(format) = ugmeshfile::MeshFormat::detect_mesh(&source.name, &source.text) {
         return crate::mesh::read(source, format, options, load);
     }
-    if !may_have_requests(&source.text) {
+    if !may_have_requests(&source) {
         return Ok(source);
     }
     let name = source.name.clone();
-    let origin = source.origin.clone().map(|origin| origin.including(&source.text));
+    let origin = source.origin.as_ref().map(|origin| Origin::Recorded(origin.words(&source.text)));
     let first = Text::new(source, options)?;
     let path = without_dots(Path::new(&name));
     let mut inclusion = Inclusion {
@@ -81,13 +85,17 @@ pub fn include(
     Ok(Source { images, ..Source::new(name, out).with_origin(origin) })
 }
 
-/// Does one of the keywords occur anywhere in the text?
-fn may_have_requests(text: &[u8]) -> bool {
+/// Does one of the keywords occur anywhere in the text? The name of a sky in the current folder
+/// stays as it is.
+fn may_have_requests(source: &Source) -> bool {
+    let text = &source.text[..];
+    let is_elsewhere = relative_to(&source.name, "sky") != Path::new("sky");
     let has_word = |word: &str| memchr::memmem::find(text, word.as_bytes()).is_some();
     // Programs write the events of a path in parentheses.
     let names_a_file =
         |at: usize| !matches!(text[at + PATH.len()..].trim_ascii_start(), [b'(' | b'<', ..]);
     ["include", "execute", "c_tex"].into_iter().any(has_word)
+        || is_elsewhere && has_word("sky")
         || memchr::memmem::find_iter(text, PATH).any(names_a_file)
 }
 
@@ -100,7 +108,7 @@ const MOST_IMAGE_BYTES: u64 = 1 << 28;
 pub(crate) fn not_replaced(statement: &RequestStatement) -> Diagnostic {
     let (message, label) = match statement.kind {
         RequestKind::Include => ("files are not included here", "asks for a file"),
-        RequestKind::Image => ("pictures are not read here", "asks for a file"),
+        RequestKind::Image | RequestKind::Sky => ("pictures are not read here", "asks for a file"),
         RequestKind::Path => ("tables are not read here", "asks for a file"),
         RequestKind::Execute => ("programs are not run here", "asks for a program"),
     };
@@ -169,6 +177,7 @@ impl Inclusion<'_> {
             match statement.kind {
                 RequestKind::Path => self.events(statement)?,
                 RequestKind::Image => self.image(statement)?,
+                RequestKind::Sky => self.sky(statement)?,
                 RequestKind::Include | RequestKind::Execute => {
                     let next = self.load(statement)?;
                     self.open.push(next);
@@ -206,14 +215,31 @@ impl Inclusion<'_> {
         Ok(())
     }
 
-    /// Writes the path of a picture, whose bytes are kept.
-    fn image(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
+    /// The path of a file that a statement names, from the current folder, as a statement can name
+    /// it.
+    fn path(&self, statement: RequestStatement) -> Result<(PathBuf, String), Diagnostics> {
         let path = relative_to(&self.source().name, &self.source().slice(statement.file));
         let name = path.to_string_lossy().into_owned();
         if name.contains(['"', '\n']) {
             let message = format!("the path `{name}` has a quotation mark or a line end");
             return Err(self.refused(statement, message, "rename its folder"));
         }
+        Ok((path, name))
+    }
+
+    /// Writes the path of a sky, unless it has no file.
+    fn sky(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
+        let name = match self.source().slice(statement.file) {
+            name if NAMED_SKIES.contains(&&*name) => name.into_owned(),
+            _ => self.path(statement)?.1,
+        };
+        self.out.extend_from_slice(format!("\"{name}\"").as_bytes());
+        Ok(())
+    }
+
+    /// Writes the path of a picture, whose bytes are kept.
+    fn image(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
+        let (path, name) = self.path(statement)?;
         let key = (name, statement.row);
         if !self.images.contains_key(&key) {
             let file = match self.mesh_files.get(&path) {
@@ -384,7 +410,7 @@ impl Inclusion<'_> {
     fn not_a_scene(&self, statement: RequestStatement) -> Diagnostics {
         let shown = self.source().slice(statement.file);
         let text = match statement.kind {
-            RequestKind::Include | RequestKind::Path | RequestKind::Image => {
+            RequestKind::Include | RequestKind::Path | RequestKind::Image | RequestKind::Sky => {
                 format!("file `{shown}`")
             }
             RequestKind::Execute => format!("the output of `{shown}`"),
@@ -448,7 +474,7 @@ impl Inclusion<'_> {
 fn finding(statement: RequestStatement, message: impl Into<String>) -> Diagnostic {
     Diagnostic::error(statement.file, message).label(match statement.kind {
         RequestKind::Include => "included here",
-        RequestKind::Path | RequestKind::Image => "read here",
+        RequestKind::Path | RequestKind::Image | RequestKind::Sky => "read here",
         RequestKind::Execute => "run here",
     })
 }
@@ -473,7 +499,7 @@ fn remedy(kind: RequestKind, error: &RequestError) -> &'static str {
     match kind {
         _ if matches!(error, RequestError::Failed { .. }) => "run it separately to see the error",
         RequestKind::Include => "names are relative to the file that includes",
-        RequestKind::Image => {
+        RequestKind::Image | RequestKind::Sky => {
             "names of pictures are relative to the file that has the statement, or to the current folder in a pipe"
         }
         RequestKind::Path => "names are relative to the file that has the motion",

@@ -91,10 +91,11 @@ pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
 pub use passed_on::{Comment, Item, PassedOn};
 #[cfg(feature = "triangles")]
-pub use read::read;
+pub use read::{read, too_many_polygons};
 pub use request::{Request, RequestError, RequestKind, name_pictures};
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};
+pub use stage_statement::comes_through_a_pipe;
 pub use tidy::tidy;
 pub use writer::{write, write_to, write_with};
 
@@ -123,7 +124,7 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     let (parsed, origin) =
         with_origin(source.origin.as_ref(), &source.text, || parse_text(source, options));
     let mut parsed = parsed?;
-    parsed.scene.head.origin = origin;
+    parsed.scene.head.files = origin.into_iter().collect();
     Ok(parsed)
 }
 
@@ -137,8 +138,9 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let mut document = reader::read(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
     let sky = sky_statement::take(text, &mut document, &mut findings);
-    // A scene without the files of its pictures is complete.
-    let texts = document.requests.iter().filter(|request| request.kind != RequestKind::Image);
+    // A scene without the files of its pictures and its sky is complete.
+    let is_text = |kind: RequestKind| !matches!(kind, RequestKind::Image | RequestKind::Sky);
+    let texts = document.requests.iter().filter(|request| is_text(request.kind));
     findings.extend(texts.map(include::not_replaced));
     refuse_errors(source, &mut findings)?;
 

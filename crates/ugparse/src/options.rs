@@ -9,8 +9,6 @@ pub struct Options {
     /// Run the programs of `execute` statements, instead of refusing them (`--allow-execute`): see
     /// [`crate::include`].
     pub execute: bool,
-    /// [`crate::read`] keeps round faces instead of cutting them into polygons.
-    pub keeps_rounds: bool,
     /// Limits on the size of a scene (`--limit`).
     pub limits: Limits,
 }

@@ -1,5 +1,5 @@
-//! The origin of a scene, with which its history begins: the hash and the name of the first input
-//! of a pipe.
+//! The origin of a scene, with which its history begins: the hash and the name of what the first
+//! program of a pipe read.
 
 use std::thread;
 
@@ -7,18 +7,15 @@ use ugscene::recorded;
 
 use crate::token;
 
-/// The input of the first program of a pipe.
+/// The input of a program that records it.
 #[derive(Clone, Debug)]
 pub enum Origin {
-    /// The recorded words: `SHA-256 3b1c… ship.ug`, or with the hash of the whole text of a scene
-    /// that includes files, `SHA-256 3b1c… including 88d4… fleet.ug`.
+    /// The recorded words: `SHA-256 3b1c… ship.ug`.
     Recorded(String),
     /// An input whose hash has not been computed yet.
     Pending {
         /// Its name, quoted for a shell; `-` for standard input.
         name: String,
-        /// The hash of the text alone, if the input is a text with the files that it includes.
-        alone: Option<String>,
         /// Computes the SHA-256 of the input, in hexadecimal digits.
         sha256: fn(&[u8]) -> String,
     },
@@ -29,23 +26,7 @@ impl Origin {
     pub fn words(&self, bytes: &[u8]) -> String {
         match self {
             Self::Recorded(words) => words.clone(),
-            Self::Pending { name, alone: None, sha256 } => {
-                format!("SHA-256 {} {name}", sha256(bytes))
-            }
-            Self::Pending { name, alone: Some(alone), sha256 } => {
-                format!("SHA-256 {alone} including {} {name}", sha256(bytes))
-            }
-        }
-    }
-
-    /// The origin of a text with the files that it includes. `bytes`: the text alone.
-    #[must_use]
-    pub fn including(self, bytes: &[u8]) -> Self {
-        match self {
-            Self::Pending { name, sha256, .. } => {
-                Self::Pending { name, alone: Some(sha256(bytes)), sha256 }
-            }
-            recorded => recorded,
+            Self::Pending { name, sha256 } => format!("SHA-256 {} {name}", sha256(bytes)),
         }
     }
 }
@@ -72,12 +53,16 @@ pub fn with_origin<T>(
 
 /// True if a text begins with comments of which one was recorded by a program.
 pub fn has_history(text: &[u8]) -> bool {
+    head(text).0
+}
+
+/// Whether the comments at the head of a text have a history, and what follows them.
+pub(crate) fn head(text: &[u8]) -> (bool, &[u8]) {
     let mut rest = text.trim_ascii_start();
+    let mut has_history = false;
     while let Ok((after, comment)) = token::comment(rest) {
-        if str::from_utf8(comment).is_ok_and(|comment| recorded(comment).is_some()) {
-            return true;
-        }
+        has_history |= str::from_utf8(comment).is_ok_and(|comment| recorded(comment).is_some());
         rest = after.trim_ascii_start();
     }
-    false
+    (has_history, rest)
 }

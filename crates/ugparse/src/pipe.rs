@@ -1,9 +1,12 @@
 //! How the programs read scenes: with the options all of them have, and with the files
 //! and programs that a scene names.
 
+use std::path::{Component, Path};
+
 use ugpipe::{CommonArgs, Context, Failure};
 
 use crate::origin::has_history;
+use crate::stage_statement::comes_through_a_pipe;
 use crate::{
     Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, RequestKind, Source,
 };
@@ -35,6 +38,14 @@ pub fn read(context: &mut Context, options: &Options) -> Result<Source, Failure>
     follow(input(context, options)?, options, context).map_err(refused)
 }
 
+/// The input of a program that may be in the middle of a pipe: a scene with a history on standard
+/// input was recorded by the program upstream, even if nothing moves in it.
+pub fn downstream(source: Source, context: &Context) -> Source {
+    let is_recorded = context.recorded_name() == "-" && has_history(&source.text);
+    let origin = source.origin.clone().filter(|_| !is_recorded);
+    source.with_origin(origin)
+}
+
 /// Reads the input scene of a program, without included files.
 ///
 /// # Errors
@@ -42,13 +53,13 @@ pub fn read(context: &mut Context, options: &Options) -> Result<Source, Failure>
 pub fn input(context: &mut Context, options: &Options) -> Result<Source, Failure> {
     // The byte beyond the limit makes the parser refuse the text, with a remedy.
     let input = context.input_up_to(options.limits.get(Limit::Text) + 1)?;
-    let origin = (!has_history(&input.text)).then(|| origin(context));
+    let origin = (!comes_through_a_pipe(&input.text)).then(|| origin(context));
     Ok(Source::new(input.name, input.text).with_origin(origin))
 }
 
-/// The origin of a scene that this program reads first.
+/// The origin of a scene that this program reads as it is at rest.
 pub fn origin(context: &Context) -> Origin {
-    Origin::Pending { name: context.recorded_name(), alone: None, sha256: ugpipe::sha256 }
+    Origin::Pending { name: context.recorded_name(), sha256: ugpipe::sha256 }
 }
 
 /// Replaces the `include` and `execute` statements and the tables of events of a scene, or reads a
@@ -66,7 +77,7 @@ pub fn follow(source: Source, options: &Options, context: &Context) -> Result<So
 /// The file cannot be read; the program cannot be run, or fails.
 pub fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
-        RequestKind::Include | RequestKind::Path | RequestKind::Image => {
+        RequestKind::Include | RequestKind::Path | RequestKind::Image | RequestKind::Sky => {
             Ok(context.read_named(request.path, request.room + 1)?)
         }
         RequestKind::Execute => {
@@ -85,6 +96,21 @@ pub fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, Request
 /// The failure of a run because of errors in the scene.
 pub fn refused(findings: Diagnostics) -> Failure {
     Failure::Report(findings.report())
+}
+
+/// The note on files in other folders that the text of a scene names, which programs downstream
+/// refuse to read: for them it comes from standard input, so it may name files of the current
+/// folder and below.
+pub fn outside_files(scene: &ugscene::Scene, context: &Context) -> Option<&'static str> {
+    let is_outside = |file: &str| {
+        let is_below = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+        !Path::new(file).components().all(is_below)
+    };
+    let textures = scene.textures.iter().filter_map(|texture| texture.image.file.as_deref());
+    let mut files = textures.chain(scene.sky.as_ref().map(|sky| &*sky.file));
+    let note = "the scene names pictures outside the current folder, which programs downstream refuse: run the \
+                pipe in the folder of the scene, or give --allow-outside to each of them, if you trust the scene";
+    (!context.allows_outside() && files.any(is_outside)).then_some(note)
 }
 
 /// The note on textures that the text of a scene leaves out, because they are within a mesh from

@@ -1,17 +1,17 @@
-//! Reading for programs that move or draw faces: bent faces become triangles, and round ones
-//! polygons.
+//! Reading for programs that move or draw faces: bent faces become triangles. Round ones stay, so
+//! that every program decides by itself whether it draws them exactly.
 
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{Face, Scene, VertexId};
+use ugscene::{Face, Scene, TooManyPolygons, VertexId};
 
-use crate::{Diagnostic, Diagnostics, Options, Parsed, Source};
+use crate::{Diagnostic, Diagnostics, Options, Parsed, Source, Span};
 
 /// Reads a scene and cuts bent faces ([`Parsed::bent`]) into their triangles, since their shape
 /// would depend on the side they are seen from. The triangles keep all properties of the face,
-/// including its name. So do the polygons of round faces, see [`Parsed::cut_rounds`], unless
-/// `options` keeps them.
+/// including its name. Round faces stay as they are; programs that need polygons cut them, as
+/// [`Parsed::cut_rounds`] does.
 ///
 /// `camera`: the name of the camera to use, see [`Parsed::choose_camera`].
 ///
@@ -30,10 +30,6 @@ pub fn read(
     if !rows.is_empty() {
         cut_faces(&mut parsed.scene, &rows);
     }
-    if !options.keeps_rounds {
-        let eye = parsed.scene.camera().and_then(|camera| camera.eye);
-        parsed.cut_rounds(source, eye)?;
-    }
     Ok(parsed)
 }
 
@@ -44,20 +40,30 @@ impl Parsed {
     /// # Errors
     /// There are too many.
     pub fn cut_rounds(&mut self, source: &Source, eye: Option<DVec3>) -> Result<(), Diagnostics> {
-        let Self { scene, origins, .. } = self;
-        let Some(first) = scene.faces.iter().find(|face| face.shape.is_round()) else {
+        if !self.scene.has_rounds() {
             return Ok(());
-        };
-        let span = origins.face(first).unwrap_or_default();
+        }
+        let span = self.first_round();
+        let Self { scene, origins, .. } = self;
         let n_vertices = scene.vertices.len();
-        ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
-            let finding = Diagnostic::error(span, error.to_string()).label("the first of them");
-            Diagnostics::one(source, finding.help("split the scene"))
-        })?;
+        let cut = ugscene::cut_rounds_at_rest(scene, eye);
+        cut.map_err(|error| too_many_polygons(source, span, error))?;
         origins.vertices.resize(n_vertices, span);
         origins.vertices.resize(scene.vertices.len(), span);
         Ok(())
     }
+
+    /// The place of the first round face in the text.
+    pub fn first_round(&self) -> Span {
+        let first = self.scene.faces.iter().find(|face| face.shape.is_round());
+        first.and_then(|face| self.origins.face(face)).unwrap_or_default()
+    }
+}
+
+/// The error at the first round face of a text, if all of them would become too many polygons.
+pub fn too_many_polygons(source: &Source, first: Span, error: TooManyPolygons) -> Diagnostics {
+    let finding = Diagnostic::error(first, error.to_string()).label("the first of them");
+    Diagnostics::one(source, finding.help("split the scene"))
 }
 
 /// Triangulates the faces of these rows, which are in order, where possible.

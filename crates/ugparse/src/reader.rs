@@ -42,8 +42,8 @@ pub(crate) struct CommentSpan {
     pub trailing: bool,
 }
 
-/// `include FILE ;`, `execute FILE ;`, or the file of `-path FILE` or `c_tex`; the text that
-/// replaces it takes the place of `span`.
+/// `include FILE ;`, `execute FILE ;`, or the file of `-path FILE`, `c_tex` or `sky`; the text
+/// that replaces it takes the place of `span`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RequestStatement {
     pub kind: RequestKind,
@@ -227,6 +227,7 @@ impl<'t> Reader<'t, '_> {
                 }
                 _ => None,
             },
+            Statement::Sky(sky) => Some((RequestKind::Sky, sky.file, None, None)),
             _ => None,
         };
         if let Some((kind, FileStatement { span, name: file }, motion, row)) = request {

@@ -14,6 +14,8 @@ pub enum RequestKind {
     Path,
     /// `c_tex`: the bytes of a picture.
     Image,
+    /// `sky`: nothing. Its name becomes a path from the current folder; renderers read the file.
+    Sky,
     /// `execute`: the standard output of a program.
     Execute,
 }
@@ -68,9 +70,14 @@ pub fn name_pictures(scene: &mut Scene, mesh: &str) {
 }
 
 /// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the
-/// folder of the link.
+/// folder of the link. So does a `/` at the end, with which no file is found.
 pub(crate) fn without_dots(path: &Path) -> PathBuf {
-    let path: PathBuf =
+    let whole: PathBuf =
         path.components().filter(|component| *component != Component::CurDir).collect();
-    if path.as_os_str().is_empty() { ".".into() } else { path }
+    let name = path.as_os_str().as_encoded_bytes();
+    match whole.as_os_str().is_empty() {
+        true => ".".into(),
+        false if name.ends_with(b"/") || name.ends_with(b"/.") => whole.join(""),
+        false => whole,
+    }
 }

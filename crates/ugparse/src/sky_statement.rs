@@ -25,7 +25,7 @@ pub(crate) fn take(
         findings.push(Diagnostic::again(places, "the scene has two skies", "remove one of them"));
     }
     let statement = file.skies.rows.first()?;
-    let file = statement.file.lossy(text);
+    let file = statement.file.name.lossy(text);
     Some(StatedSky { file, turn: statement.turn })
 }
 
@@ -37,7 +37,7 @@ pub fn stated_sky(source: &Source, options: &Options) -> Option<(StatedSky, Span
     let mut findings = Vec::new();
     let mut document = read(&source.text, options, &mut findings);
     let sky = take(&source.text, &mut document, &mut findings)?;
-    Some((sky, document.scopes.first()?.skies.rows.first()?.file))
+    Some((sky, document.scopes.first()?.skies.rows.first()?.file.name))
 }
 
 /// Writes the statement.

@@ -15,7 +15,7 @@ pub struct Source {
     pub name: String,
     /// The bytes of the file. Comments and escapes may contain any bytes.
     pub text: Vec<u8>,
-    /// The origin with which the history of the scene will begin, unless it has one.
+    /// The record of the text in the history of the scene.
     pub origin: Option<Origin>,
     /// Of a mesh, its scene, which [`crate::include`] reads with the files that it names; `None` in
     /// it before and in messages. A mesh has no line marks.

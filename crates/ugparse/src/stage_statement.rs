@@ -14,10 +14,11 @@ use ugscene::{
 
 use crate::diagnostic::Diagnostic;
 use crate::number_text::push_number;
+use crate::origin;
 use crate::reader::Document;
 use crate::source::Span;
 use crate::suggest::nearest;
-use crate::token::{Input, found, is_blank, number};
+use crate::token::{Input, escape, found, is_blank, number};
 use crate::wording::{shorten, word_help};
 
 /// First word of the statement.
@@ -34,6 +35,21 @@ const MIXTURES: &str = "mixtures";
 pub(crate) fn is_stage(escape: &[u8]) -> bool {
     let first = || Words::new(escape, Span { start: 0, end: escape.len() as u32 }).next();
     escape.starts_with(b"(") && first().is_some_and(|word| word.as_str() == KEYWORD)
+}
+
+/// True for the output of a program in the middle of a pipe, which recorded what it read: a text
+/// with a history and a stage. A scene at rest may have a history as well, and somebody may have
+/// changed it since.
+pub fn comes_through_a_pipe(text: &[u8]) -> bool {
+    let (has_history, rest) = origin::head(text);
+    let Ok((after, _)) = escape(rest) else { return false };
+    let end = rest.len() - after.len();
+    let span = Span { start: 0, end: u32::try_from(end).unwrap_or(0) };
+    has_history
+        && is_stage(&rest[..end])
+        && read(rest, span).is_ok_and(|stage| {
+            stage != Stage { mixtures: stage.mixtures.clone(), ..Stage::default() }
+        })
 }
 
 /// Moves the stage statement of a document from its escapes to [`Document::stage`].

@@ -116,8 +116,8 @@ pub(crate) struct FileStatement {
 /// A sky.
 #[derive(Debug)]
 pub(crate) struct SkyStatement {
-    /// The name of its file without quotes.
-    pub file: Span,
+    /// Its file.
+    pub file: FileStatement,
     /// Turns about x, y and z, degrees.
     pub turn: [f64; 3],
 }

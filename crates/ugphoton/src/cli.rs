@@ -293,7 +293,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &config.reading)?;
     config.sky.open_with((&source, &config.reading), &args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
-    let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
+    let (command, files) = (Some(&*command_line), &context.take_files_read()[..]);
+    let provenance = Provenance { command, files, ..PROVENANCE };
     let steps = context.steps();
     let (drawing, warnings) =
         PreparedScene::read(&config, &source, provenance, !context.is_quiet(), &steps)

@@ -27,6 +27,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// Renders a scene at rest.
@@ -278,8 +279,7 @@ impl PreparedScene {
 
 /// Reads a scene with its round faces.
 pub fn read(config: &Config, source: &Source) -> Result<Parsed, Diagnostics> {
-    let options = ugparse::Options { keeps_rounds: true, ..config.reading };
-    ugparse::read(source, &options, config.picture.camera.name.as_deref())
+    ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())
 }
 
 /// The scene with its vertices where they are seen and where they rest, and the stage that says so.

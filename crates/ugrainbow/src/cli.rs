@@ -326,12 +326,13 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         return write_explanation(args.dt, &config.reading, context, explain);
     }
     refuse_terminal(config.picture.output.format(), context)?;
-    let input = pipe::input(context, &config.reading)?;
+    let input = pipe::downstream(pipe::input(context, &config.reading)?, context);
     context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
     let source = pipe::follow(input, &config.reading, context).map_err(pipe::refused)?;
     config.sky.open_with((&source, &config.reading), &args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
-    let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
+    let (command, files) = (Some(&*command_line), &context.take_files_read()[..]);
+    let provenance = Provenance { command, files, ..PROVENANCE };
     let picture = run_with(&config, &source, provenance, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
 }

@@ -1,10 +1,12 @@
 //! The options of the renderer.
 
+use std::borrow::Cow;
+
 use uglight::{ColorShift, Interpolation};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::{Output, PictureOptions};
 use ugraster::DepthFade;
-use ugscene::{HueScale, Projection, Scene, ShownEffects};
+use ugscene::{HueScale, Projection, Scene, ShownEffects, TooManyPolygons};
 use ugskybox::SceneSky;
 
 /// Everything besides the scene that affects the bytes of a picture.
@@ -93,6 +95,17 @@ impl Config {
             (None, None) => ColorShift::NONE,
             (None, Some(seen)) => ColorShift::of_stage(seen),
         }
+    }
+
+    /// Cuts round faces into polygons, unless rays meet them as they are. An undistorted outline
+    /// needs their edges.
+    pub(crate) fn cut_rounds(&self, scene: &mut Cow<'_, Scene>) -> Result<(), TooManyPolygons> {
+        let is_by_rays = self.exact.is_some() && self.wireframe.is_none();
+        if is_by_rays && !self.picture.annotations.outline || !scene.has_rounds() {
+            return Ok(());
+        }
+        let of_scene = scene.camera().and_then(|camera| camera.eye);
+        ugscene::cut_rounds_at_rest(scene.to_mut(), self.picture.camera.eye.or(of_scene))
     }
 
     /// False if faces only occlude lines.

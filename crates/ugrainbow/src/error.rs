@@ -1,7 +1,7 @@
 //! Why there is no picture.
 
 use thiserror::Error;
-use ugparse::Diagnostics;
+use ugparse::{Diagnostics, Parsed, Source};
 use ugscene::{CameraError, StageError};
 use ugskybox::SkyError;
 
@@ -55,6 +55,18 @@ pub enum Error {
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),
+}
+
+impl Error {
+    /// The same, at its place in the text if it is about round faces.
+    pub(crate) fn at_rounds(self, source: &Source, parsed: &Parsed) -> Self {
+        match self {
+            Self::TooManyPolygons(error) => {
+                ugparse::too_many_polygons(source, parsed.first_round(), error).into()
+            }
+            error => error,
+        }
+    }
 }
 
 impl From<CameraError> for Error {

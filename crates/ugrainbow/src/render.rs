@@ -22,6 +22,7 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
 /// Renders a scene: to pixels for a display, light, or a vector figure.
@@ -79,16 +80,13 @@ pub fn run_with(
 ) -> Result<PictureFile, Error> {
     let canvas = Canvas::new(&config.picture)?;
     progress.step("reading", 0);
-    let is_by_rays = config.exact.is_some() && config.wireframe.is_none();
-    let keeps_rounds = is_by_rays && !config.picture.annotations.outline;
-    let reading = ugparse::Options { keeps_rounds, ..config.reading };
-    let parsed = ugparse::read(source, &reading, config.picture.camera.name.as_deref())?;
+    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     let rendering = match draw(&parsed.scene, config, &canvas, provenance, progress) {
         // A warning says what a mesh without faces has.
         Err(Error::Picture(error @ ugpicture::Error::Empty(_))) if !parsed.warnings.is_empty() => {
             return Err(parsed.warnings.with_error(source, error.to_string()).into());
         }
-        drawn => drawn?,
+        drawn => drawn.map_err(|error| error.at_rounds(source, &parsed))?,
     };
     Ok(rendering.pack(warnings(source, parsed), progress))
 }

@@ -48,10 +48,7 @@ impl<'a> Setup<'a> {
             ugscene::refuse_deferred_colors(scene)?;
         }
         let mut scene = drawable(scene);
-        if config.exact.is_none() && scene.has_rounds() {
-            let of_scene = scene.camera().and_then(|camera| camera.eye);
-            ugscene::cut_rounds_at_rest(scene.to_mut(), config.picture.camera.eye.or(of_scene))?;
-        }
+        config.cut_rounds(&mut scene)?;
         if !scene.color_tables.is_empty() {
             uglight::freeze_colors_at_zero(scene.to_mut());
             scene.to_mut().color_tables.clear();

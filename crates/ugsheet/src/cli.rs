@@ -15,7 +15,7 @@ use ugpipe::{
 
 use crate::film::{self, Caption, FilmKind, Footage, FrameNames, Joined};
 use crate::recipe::{Recipe, recipes};
-use crate::{Config, Error, Labels, Motion, Picture, Sheet, history, join};
+use crate::{Config, Error, Labels, Motion, Picture, Sheet, history, join, recorded_files};
 
 /// Arranges several pictures or films on one sheet, with labels
 ///
@@ -331,7 +331,8 @@ fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let mut script = String::new();
     for Input { name, text } in &inputs {
-        let recipes = recipes(&read_history(text).unwrap_or_default(), &args.common);
+        let history = read_history(text).unwrap_or_default();
+        let recipes = recipes(&history, &args.common);
         let recipes = recipes.map_err(|why| {
             Failure::failed(format!("the history of `{name}` must not be run: {why}"))
         })?;
@@ -344,6 +345,7 @@ fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
             inspect(recipe, context);
             script += &recipe.script();
         }
+        recorded_files::inspect(&history, context);
         if recipes.len() > 1 {
             let n = recipes.len();
             context.note(&format!(

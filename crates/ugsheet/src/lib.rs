@@ -34,6 +34,8 @@ mod labels;
 mod layout;
 #[cfg(feature = "cli")]
 mod recipe;
+#[cfg(feature = "cli")]
+mod recorded_files;
 mod scaling;
 mod shell_words;
 mod tiles;

@@ -6,6 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::spectrum::Spectrum;
 use ugphysics::xyz_to_linear_srgb;
+use ugscene::NAMED_SKIES;
 use ugsky::{Extent, Panorama, Star, StarOptions, Texels};
 
 use crate::open::Opened;
@@ -69,11 +70,7 @@ impl BuiltIn {
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Day => "day",
-            Self::Dusk => "dusk",
-            Self::Stars => "stars",
-        }
+        NAMED_SKIES[self as usize]
     }
 
     /// The sky called `name`.

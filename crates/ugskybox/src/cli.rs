@@ -6,7 +6,7 @@ use clap::{ArgAction, Args};
 use glam::DQuat;
 use ugimage::PictureLimits;
 use ugparse::{Diagnostic, Diagnostics, Source};
-use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite, sha256};
+use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite};
 use ugsky::PanoramaError;
 
 use crate::built_in::BuiltIn;
@@ -119,19 +119,6 @@ fn opened(file: &Input, common: &CommonArgs) -> Result<Opened, Failure> {
         };
         Failure::Failed(format!("sky `{name}`: {error}{remedy}"))
     })
-}
-
-impl Opened {
-    /// The words for the origin of a picture: the SHA-256 and the name of the first file, and one
-    /// of all other files together.
-    pub fn origin(&self, input: &Input, context: &Context) -> String {
-        let (hash, name) = (sha256(&input.text), context.recorded_name());
-        if self.others.is_empty() {
-            return format!("SHA-256 {hash} {name}");
-        }
-        let all = sha256(format!("{hash} {}", self.others.join(" ")).as_bytes());
-        format!("SHA-256 {hash} including {all} {name}")
-    }
 }
 
 impl Words for SkyError {

@@ -23,8 +23,6 @@ pub struct Opened {
     pub highlights: Option<f32>,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
-    /// SHA-256 of each other file than the first that a command line read.
-    pub others: Vec<String>,
 }
 
 impl<'s> From<&'s Opened> for Sky<'s> {

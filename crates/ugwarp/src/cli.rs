@@ -20,7 +20,7 @@ use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, number,
-    one_of, remedies, sha256, vector,
+    one_of, remedies, vector,
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
@@ -286,21 +286,18 @@ impl Args {
         };
         if let Some(path) = &self.stars {
             let input = context.input_file(path)?;
-            opened.others.push(sha256(&input.text));
             let StarList { stars, notes } = stars(&input)?;
             opened.stars.extend(stars);
             opened.notes.extend(notes);
         }
         if let Some(path) = &self.scene {
-            let (scene, hash) = self.scene(path, context)?;
-            opened.scene = Some(Box::new(scene));
-            opened.others.push(hash);
+            opened.scene = Some(Box::new(self.scene(path, context)?));
         }
         Ok(opened)
     }
 
-    /// Reads the scene of the camera, and the SHA-256 of its text with all that it includes.
-    fn scene(&self, path: &Path, context: &Context) -> Result<(Scene, String), Failure> {
+    /// Reads the scene of the camera.
+    fn scene(&self, path: &Path, context: &Context) -> Result<Scene, Failure> {
         let options = pipe::options(&self.common)?;
         let Input { name, text } = context.input_file(path)?;
         let source =
@@ -310,7 +307,7 @@ impl Args {
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
         }
-        Ok((parsed.scene, sha256(&source.text)))
+        Ok(parsed.scene)
     }
 
     /// Refuses options of panoramas, if a list of stars is read instead.
@@ -363,7 +360,6 @@ impl Args {
                 }
                 error => Failure::of(Error::from(error)),
             })?;
-        opened.others.extend(others.iter().map(|other| sha256(&other.text)));
         let is_spectral =
             matches!(self.color_shift(), ColorShift::Spectra(_)) && self.basis.is_none();
         if is_spectral && arrangement != Arrangement::Sides {
@@ -392,7 +388,6 @@ impl Args {
                 ));
             }
             let file = context.input_file(path)?;
-            opened.others.push(sha256(&file.text));
             let band = open(&[&file.text], Some(arrangement), self.extent(), None, limits)
                 .map_err(|error| {
                     Failure::Failed(format!("`{}`: {}", file.name, Error::from(error).words()))
@@ -440,9 +435,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let input = context.input()?;
     let opened = args.open(&input, context)?;
     let command_line = args.recorded(context.command_line(), &config);
-    let origin = opened.origin(&input, context);
-    let metadata =
-        metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
+    let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
+    let metadata = metadata(&context.take_record(&input), provenance);
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
 }

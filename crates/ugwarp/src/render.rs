@@ -36,7 +36,7 @@ pub fn render_with<'s>(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     let sky = sky.into();
-    let metadata = Metadata { panorama: config.panorama(), ..metadata(None, PROVENANCE) };
+    let metadata = Metadata { panorama: config.panorama(), ..metadata(&[], PROVENANCE) };
     Prepared::new(sky, config, progress)?.render(sky, &metadata, progress)
 }
 
@@ -122,11 +122,13 @@ pub const PROVENANCE: Provenance<'static> = Provenance {
     program: env!("CARGO_PKG_NAME"),
     version: env!("CARGO_PKG_VERSION"),
     command: None,
+    files: &[],
 };
 
-/// The record in a picture of how it was made. `origin`: hash and name of the panorama.
-pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
-    let head = Head { origin: origin.map(str::to_owned), ..Head::default() };
+/// The record in a picture of how it was made. `files`: hash and name of every file that was read,
+/// the panorama first.
+pub fn metadata(files: &[String], provenance: Provenance<'_>) -> Metadata {
+    let head = Head { files: files.to_vec(), ..Head::default() };
     ugpicture::metadata(&head, provenance)
 }
 

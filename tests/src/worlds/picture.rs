@@ -140,8 +140,8 @@ impl Picture {
     }
 
     fn scene(&self) -> Result<Scene, String> {
-        let options = Options { keeps_rounds: true, ..Options::default() };
-        let parsed = ugparse::read(&Source::new("world.ug", self.scene_text()), &options, None);
+        let source = Source::new("world.ug", self.scene_text());
+        let parsed = ugparse::read(&source, &Options::default(), None);
         let mut scene = parsed.map(|parsed| parsed.scene).map_err(words)?;
         scene.textures.iter_mut().for_each(|texture| texture.image.bytes = TEXTURE.clone());
         Ok(scene)

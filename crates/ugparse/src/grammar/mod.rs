@@ -470,7 +470,7 @@ impl<'t> Grammar<'t, '_> {
 
     /// `sky FILE [-ra x y z]`
     fn sky(&self, input: Input<'t>) -> Parsed<'t, Statement> {
-        let (input, FileStatement { name: file, .. }) = file(self.text, input, FILE_NAME)?;
+        let (input, file) = file(self.text, input, FILE_NAME)?;
         let (input, turn) = match opt(option_word).parse(input)? {
             (rest, Some(b"ra")) => require(numbers(rest))?,
             (_, Some(_)) => return fail(blank(input)?.0, Reason::Expected("`-ra` or `;`")),

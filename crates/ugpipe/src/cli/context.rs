@@ -1,8 +1,9 @@
 //! The input, output and messages of a program.
 
+use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::cli::args::CommonArgs;
 use crate::cli::failure::Failure;
@@ -24,7 +25,7 @@ fn place(common: &CommonArgs) -> Place {
     if common.allow_outside {
         return Place::Anywhere;
     }
-    Place::Below(common.input().map_or(Path::new("."), folder_of).to_owned())
+    common.input().map_or(Place::Here, |input| Place::Below(folder_of(input).to_owned()))
 }
 
 const EMPTY_INPUT: &str =
@@ -38,8 +39,13 @@ fn within(limit: u64, input: Input) -> Result<Input, Failure> {
     Err(Failure::Failed(format!("`{name}` has more than {limit} bytes, the limit for inputs")))
 }
 
-/// A file among those in memory: the one of this path, or else of this name in any folder.
+/// A file among those in memory: the one of this path, or else of this name in any folder. As on a
+/// disk, a name with `/` behind it is that of a folder.
 fn in_memory<'f>(files: &'f [Input], path: &Path) -> io::Result<&'f Input> {
+    let name = path.as_os_str().as_encoded_bytes();
+    if name.ends_with(b"/") || name.ends_with(b"/.") {
+        return Err(io::Error::new(io::ErrorKind::NotADirectory, "Not a directory"));
+    }
     let by_name =
         || files.iter().find(|file| Path::new(&file.name).file_name() == path.file_name());
     let found = files.iter().find(|file| Path::new(&file.name) == path).or_else(by_name);
@@ -80,6 +86,8 @@ pub struct Context {
     files: Option<Vec<Input>>,
     /// Files in memory that the input may name, see [`Context::beside`].
     beside: Vec<Input>,
+    /// The records of the files that were read beside the input, and the same with their paths.
+    reads: Mutex<(Vec<String>, HashSet<(String, PathBuf)>)>,
 }
 
 impl Context {
@@ -95,6 +103,7 @@ impl Context {
             command_line,
             files: None,
             beside: Vec::new(),
+            reads: Mutex::default(),
         }
     }
 
@@ -188,7 +197,42 @@ impl Context {
     /// # Errors
     /// See [`Context::input`].
     pub fn input_file(&self, path: &Path) -> Result<Input, Failure> {
-        within(MAX_INPUT, self.read(Some(path), MAX_INPUT + 1)?)
+        let input = within(MAX_INPUT, self.read(Some(path), MAX_INPUT + 1)?)?;
+        self.note_read(path, Some(&input.text));
+        Ok(input)
+    }
+
+    /// Hash and name of every file that was read beside the input, and of the output of every
+    /// program, since the last call, for the record in the output: `SHA-256 3b1c… hull.png`. Where
+    /// a file that an input names could not be read, the hash is `none`.
+    pub fn take_files_read(&self) -> Vec<String> {
+        std::mem::take(&mut *self.reads.lock().unwrap_or_else(PoisonError::into_inner)).0
+    }
+
+    /// The same, with the input first.
+    pub fn take_record(&self, input: &Input) -> Vec<String> {
+        let input = format!("SHA-256 {} {}", provenance::sha256(&input.text), self.recorded_name());
+        std::iter::once(input).chain(self.take_files_read()).collect()
+    }
+
+    /// Every file that this program opens, but its input, is reported here.
+    fn note_read(&self, path: &Path, text: Option<&[u8]>) {
+        let words = match text {
+            Some(text) => {
+                let name = provenance::recorded_name(Some(path));
+                format!("SHA-256 {} {name}", provenance::sha256(text))
+            }
+            // Meshes name files by paths of other machines, which nobody needs to know.
+            None => {
+                let name = path.file_name().map(Path::new);
+                format!("SHA-256 none {}", provenance::recorded_name(name))
+            }
+        };
+        let mut reads = self.reads.lock().unwrap_or_else(PoisonError::into_inner);
+        // Each is told once, however often it is read.
+        if reads.1.insert((words.clone(), path.to_owned())) {
+            reads.0.push(words);
+        }
     }
 
     /// Reads at most `limit` bytes of a file that the input names. It has to be a regular file, in
@@ -202,6 +246,11 @@ impl Context {
         self.read_at(path, &self.place, limit)
     }
 
+    /// True if the input may name files in any folder (`--allow-outside`).
+    pub fn allows_outside(&self) -> bool {
+        self.place == Place::Anywhere
+    }
+
     /// Runs a program that the input names, at the places of [`Context::read_named`], without a
     /// shell, arguments or input, and reads at most `limit` bytes of its standard output. A program
     /// that prints as much is killed. `PATH` is not searched.
@@ -213,9 +262,12 @@ impl Context {
             return Err(io::Error::new(io::ErrorKind::Unsupported, "No programs are run here"));
         }
         if let Some(text) = self.found_beside(path, limit) {
+            self.note_read(path, Some(&text));
             return Ok(ProgramOutput { text, error_line: String::new(), failure: None });
         }
-        files::run_program(path, &self.place, limit)
+        let ran = files::run_program(path, &self.place, limit)?;
+        self.note_read(path, Some(&ran.text));
+        Ok(ran)
     }
 
     /// The program and those of its options that affect the content, for the history comment at the
@@ -239,17 +291,17 @@ impl Context {
     /// # Errors
     /// See [`Context::read_named`].
     pub fn read_here(&self, path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-        self.read_at(path, &Place::Below(PathBuf::from(".")), limit)
+        self.read_at(path, &Place::Here, limit)
     }
 
     fn read_at(&self, path: &Path, place: &Place, limit: u64) -> io::Result<Vec<u8>> {
-        if let Some(found) = self.found_beside(path, limit) {
-            return Ok(found);
-        }
-        match &self.files {
-            Some(files) => in_memory(files, path).map(|file| first_bytes(file, limit)),
-            None => files::read_file(path, place, limit),
-        }
+        let read = match (self.found_beside(path, limit), &self.files) {
+            (Some(found), _) => Ok(found),
+            (None, Some(files)) => in_memory(files, path).map(|file| first_bytes(file, limit)),
+            (None, None) => files::read_file(path, place, limit),
+        };
+        self.note_read(path, read.as_deref().ok());
+        read
     }
 
     /// Writes the whole output. Call it once, after everything else has succeeded.

@@ -29,6 +29,10 @@ pub struct ProgramOutput {
 const OUTSIDE: &str =
     "It is outside the folder of the input; if you trust the input, allow it with --allow-outside";
 
+/// The same for standard input.
+const OUTSIDE_HERE: &str = "It is outside the current folder; run the whole pipe in the folder of \
+     the scene, or if you trust the scene, allow it with --allow-outside";
+
 /// The place where files and programs that an input names must be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
@@ -36,20 +40,23 @@ pub(crate) enum Place {
     Anywhere,
     /// In this folder or below, links followed.
     Below(PathBuf),
+    /// The same for the current folder, in which standard input is.
+    Here,
 }
 
 impl Place {
     /// The path without links, if it is at this place.
     fn admit(&self, path: &Path) -> io::Result<PathBuf> {
         let real = fs::canonicalize(path).map_err(without_number)?;
-        match self {
-            Self::Below(folder)
-                if !real.starts_with(fs::canonicalize(folder).map_err(without_number)?) =>
-            {
-                Err(io::Error::new(io::ErrorKind::PermissionDenied, OUTSIDE))
-            }
-            _ => Ok(real),
+        let (folder, refusal) = match self {
+            Self::Anywhere => return Ok(real),
+            Self::Below(folder) => (&**folder, OUTSIDE),
+            Self::Here => (Path::new("."), OUTSIDE_HERE),
+        };
+        if real.starts_with(fs::canonicalize(folder).map_err(without_number)?) {
+            return Ok(real);
         }
+        Err(io::Error::new(io::ErrorKind::PermissionDenied, refusal))
     }
 }
 

@@ -2,7 +2,7 @@
 //! read.
 
 use std::ffi::OsStr;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command};
@@ -62,7 +62,11 @@ pub(crate) fn recorded_name(path: Option<&Path>) -> String {
     let is_below = |path: &Path| {
         path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
     };
-    let name = match path {
+    // Without `.`, which programs downstream leave out as well.
+    let plain: Option<PathBuf> = path.map(|path| {
+        path.components().filter(|component| *component != Component::CurDir).collect()
+    });
+    let name = match &plain {
         None => OsStr::new("-"),
         Some(path) if is_below(path) => path.as_os_str(),
         Some(path) => path.file_name().unwrap_or_default(),
@@ -163,7 +167,7 @@ mod tests {
         };
         check(None, "-");
         check(Some("ship.ug"), "ship.ug");
-        check(Some("./scenes/my ship.ug"), "'./scenes/my ship.ug'");
+        check(Some("./scenes/./my ship.ug"), "'scenes/my ship.ug'");
         check(Some("/scenes/ship.ug"), "ship.ug");
         check(Some("../ship.ug"), "ship.ug");
         check(Some("a/../../ship.ug"), "ship.ug");

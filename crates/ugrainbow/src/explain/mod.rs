@@ -99,7 +99,7 @@ pub fn explain(
     let pixel = canvas.pixel_of_scene(pixel)?;
     let config = &Config { picture: canvas.options().clone(), ..config.clone() };
     let picture = &config.picture;
-    let setup = prepare(&parsed.scene, config)?;
+    let setup = prepare(&parsed.scene, config).map_err(|error| error.at_rounds(source, &parsed))?;
     let layers = RenderLayers::new(&setup, config)?;
     let backdrop = backdrop(picture);
     let light = |all: &PixelSamples<'_>| mean(&backdrop, all);

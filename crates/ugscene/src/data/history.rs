@@ -1,5 +1,7 @@
-//! The history of a scene: each filter adds a head comment, the first one also the hash and the
-//! name of what it read.
+//! The history of a scene: each filter adds a head comment, and one with hash and name of every
+//! file that it read and that no program before it recorded.
+
+use std::collections::HashSet;
 
 /// Comments at the head of a scene: its licence, and the history that pictures of it have as well.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -7,8 +9,9 @@ pub struct Head {
     /// Comments before the first statement, without their outer braces. They come first in the
     /// output.
     pub comments: Vec<String>,
-    /// The hash and the name of the input of a scene without a history, see [`Head::record`].
-    pub origin: Option<String>,
+    /// Hash and name of every file that was read for the scene and that its comments do not have
+    /// yet, the input first, see [`Head::record`].
+    pub files: Vec<String>,
 }
 
 /// The program that made a scene or a picture, and the command that makes it again.
@@ -24,19 +27,29 @@ pub struct Provenance<'s> {
     /// The command line, which begins with the name of the program. Without it nothing is added to
     /// a history.
     pub command: Option<&'s str>,
+    /// Hash and name of every file that the program read beside its input.
+    pub files: &'s [String],
 }
 
 impl Head {
-    /// Appends a head comment with a command and its program, after one with the
-    /// [origin](Head::origin) of a scene without a history.
+    /// Appends a head comment with a command and its program, after one for each
+    /// [file](Head::files) that was read for it, unless a comment has the same record.
     pub fn record(&mut self, provenance: Provenance<'_>) {
-        let Provenance { program, version, command: Some(command) } = provenance else { return };
-        if let Some(origin) = self.origin.take()
-            && self.history().is_empty()
-        {
-            self.comments.push(format!(" {origin} "));
-        }
+        let Provenance { program, version, command: Some(command), .. } = provenance else {
+            return;
+        };
+        let new: Vec<String> =
+            self.new_files(provenance).map(|words| format!(" {words} ")).collect();
+        self.files.clear();
+        self.comments.extend(new);
         self.comments.push(format!(" {program} {version}: {command} "));
+    }
+
+    /// Hash and name of every file that was read for a picture, but those of the
+    /// [pipe](Head::recipe) itself. `last`: the last program of the pipe.
+    pub fn other_files<'h>(&'h self, last: Provenance<'h>) -> impl Iterator<Item = &'h str> {
+        let origin = self.origin();
+        self.recorded_files().chain(self.new_files(last)).filter(move |&file| Some(file) != origin)
     }
 
     /// The command lines recorded in a scene, oldest first.
@@ -57,8 +70,8 @@ impl Head {
     /// before a shell runs it.
     pub fn recipe(&self, last: Provenance<'_>) -> Option<String> {
         last.command?;
-        let origin = self.recorded_origin().or(self.origin.as_deref())?;
-        let (_, name) = origin_parts(origin)?;
+        let origin = self.origin()?;
+        let (_, name) = file_parts(origin)?;
         let entries: Vec<Provenance<'_>> = self.entries().chain([last]).collect();
         let mut commands: Vec<String> =
             entries.iter().filter_map(|entry| entry.command).map(str::to_owned).collect();
@@ -75,12 +88,28 @@ impl Head {
         self.comments.iter().filter_map(|comment| recorded(comment))
     }
 
-    /// The recorded hash and name.
-    fn recorded_origin(&self) -> Option<&str> {
+    /// Hash and name of the input of the first program, if that recorded them.
+    fn origin(&self) -> Option<&str> {
+        let mut comments = self.comments.iter().map(|comment| comment.trim());
+        let first = comments.find(|words| file_parts(words).is_some() || recorded(words).is_some());
+        let first = first.or(self.files.first().map(String::as_str))?;
+        file_parts(first).map(|_| first)
+    }
+
+    fn recorded_files(&self) -> impl Iterator<Item = &str> {
         self.comments
             .iter()
             .map(|comment| comment.trim())
-            .find(|comment| origin_parts(comment).is_some())
+            .filter(|words| file_parts(words).is_some())
+    }
+
+    /// The files that no comment records. Two may have one record: files of one name and content in
+    /// folders that are not told, of which one may change.
+    fn new_files<'h>(&'h self, last: Provenance<'h>) -> impl Iterator<Item = &'h str> {
+        let known: HashSet<&str> = self.recorded_files().collect();
+        let last = if last.command.is_some() { last.files } else { &[] };
+        let files = self.files.iter().chain(last).map(String::as_str);
+        files.filter(move |words| !known.contains(words))
     }
 }
 
@@ -91,15 +120,17 @@ pub fn recorded(comment: &str) -> Option<Provenance<'_>> {
     let (program, version) = title.split_once(' ')?;
     let is_version = version.starts_with(|c: char| c.is_ascii_digit()) && !version.contains(' ');
     let is_ours = program.starts_with("ug") && command.split(' ').next() == Some(program);
-    (is_version && is_ours).then_some(Provenance { program, version, command: Some(command) })
+    let command = Some(command);
+    (is_version && is_ours).then_some(Provenance { program, version, command, files: &[] })
 }
 
-/// Hash and name of the words for an origin, `SHA-256 3b1c… ship.ug`, or `SHA-256 3b1c… including
-/// 88d4… fleet.ug` with the hash of the whole text of a scene that includes files.
-fn origin_parts(words: &str) -> Option<(&str, &str)> {
+/// Hash and name in the record of a file: `SHA-256 3b1c… ship.ug`, or `SHA-256 none ship.png` for
+/// one that could not be read. Earlier versions wrote `SHA-256 3b1c… including 88d4… fleet.ug` with
+/// the hash of the whole text of a scene that includes files.
+fn file_parts(words: &str) -> Option<(&str, &str)> {
     let (hash, name) = words.strip_prefix("SHA-256 ")?.split_once(' ')?;
     let whole = name.strip_prefix("including ").and_then(|rest| rest.split_once(' '));
     let name = whole.map_or(name, |(_, name)| name);
     let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
-    (is_hash && !name.contains('\n')).then_some((hash, name))
+    ((is_hash || hash == "none") && !name.contains('\n')).then_some((hash, name))
 }

@@ -22,7 +22,7 @@ pub use motion::{Carrier, CurveKind, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use scene::{
     Beam, Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix,
-    Projection, Scene, Shading, StatedSky, Tint, Vertex, Wire,
+    NAMED_SKIES, Projection, Scene, Shading, StatedSky, Tint, Vertex, Wire,
 };
 pub use shape::{FaceShape, RoundShape};
 pub use stage::{

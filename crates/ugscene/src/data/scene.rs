@@ -83,10 +83,13 @@ pub struct Scene {
     pub head: Head,
 }
 
+/// The names of skies without a file.
+pub const NAMED_SKIES: [&str; 3] = ["day", "dusk", "stars"];
+
 /// The sky around the scene, which is not read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedSky {
-    /// The name of its file, or of a sky without a file.
+    /// The name of its file, or one of [`NAMED_SKIES`].
     pub file: String,
     /// Turns about x, then y, then z, degrees.
     pub turn: [f64; 3],
