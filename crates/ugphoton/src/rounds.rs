@@ -66,7 +66,7 @@ mod tests {
 
     fn n_polygons(text: &str, size: [u32; 2]) -> usize {
         let source = ugparse::Source::new("s.ug", text);
-        let options = ugparse::Options { keeps_rounds: true, ..Default::default() };
+        let options = ugparse::Options::default();
         let mut scene = ugparse::parse(&source, &options).unwrap().scene;
         let picture = PictureOptions { size, ..PictureOptions::default() };
         cut_on_world_lines(&mut scene, &Config { picture, ..Config::default() }).unwrap();

@@ -2,7 +2,7 @@
 
 use ugphysics::Hsv;
 use ugpipe::Words;
-use ugrainbow::{Background, Config, Error, HueScale, Wireframe, render};
+use ugrainbow::{Background, Config, HueScale, Wireframe, render};
 
 use crate::common::{SQUARE, scene, with};
 use crate::render::{BLACK, notes, plain};
