@@ -25,7 +25,7 @@ pub(crate) fn share(rgb: [f64; 3]) -> f64 {
 }
 
 /// L*, a* and b* of linear red, green and blue.
-fn lab(rgb: [f64; 3]) -> [f64; 3] {
+pub(crate) fn lab(rgb: [f64; 3]) -> [f64; 3] {
     /// Up to this value the cube root is replaced by a straight line.
     const LINEAR: f64 = 216.0 / 24389.0;
     let white = linear_srgb_to_xyz([1.0; 3]);

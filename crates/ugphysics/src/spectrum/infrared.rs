@@ -81,14 +81,33 @@ pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
 /// The share of each level in the reflectance at a wavelength, nm, beyond the curve of the colour.
 /// They add up to 1. Interpolated linearly between whole nanometres.
 pub(crate) fn parts(wavelength_nm: f64) -> [f64; N_LEVELS] {
+    let (low, high, part) = rows(wavelength_nm);
+    std::array::from_fn(|i| low[i] + part * (high[i] - low[i]))
+}
+
+/// The reflectance there of a surface with these levels.
+#[inline]
+pub(crate) fn mixed(levels: &[f64; N_LEVELS], wavelength_nm: f64) -> f64 {
+    let (low, high, part) = rows(wavelength_nm);
+    let mix = |shares: &[f64; N_LEVELS]| -> f64 {
+        (levels[0] * shares[0] + levels[1] * shares[1])
+            + (levels[2] * shares[2] + levels[3] * shares[3])
+    };
+    let (low, high) = (mix(low), mix(high));
+    low + part * (high - low)
+}
+
+/// The shares at the whole nanometres around a wavelength, and its place between them, 0 to 1.
+#[inline]
+fn rows(wavelength_nm: f64) -> (&'static [f64; N_LEVELS], &'static [f64; N_LEVELS], f64) {
     static ROWS: LazyLock<Vec<[f64; N_LEVELS]>> = LazyLock::new(|| {
         let last = LEVELS_NM[N_LEVELS - 1] as usize + 1;
         (FIRST_NM as usize..=last).map(|nm| shares(nm as f64)).collect()
     });
+    let rows = &**ROWS;
     let at = (wavelength_nm - FIRST_NM).max(0.0);
-    let row = (at as usize).min(ROWS.len() - 2);
-    let part = (at - row as f64).min(1.0);
-    std::array::from_fn(|i| ROWS[row][i] + part * (ROWS[row + 1][i] - ROWS[row][i]))
+    let row = (at as usize).min(rows.len() - 2);
+    (&rows[row], &rows[row + 1], (at - row as f64).min(1.0))
 }
 
 /// The share of each level at a wavelength, nm.
