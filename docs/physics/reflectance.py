@@ -246,6 +246,14 @@ def main(folder, *options):
         print(f"| {kind.replace('_', ' ')} | {count} |", " | ".join(f"{part:.1f}" for part in row), "|")
     print("| mean | |", " | ".join(f"{part:.1f}" for part in np.mean(list(means.values()), 0)), "|")
     classes(spectra, rgb, found, ~fitted)
+    for low, high in infrared.BANDS:
+        band = (GRID >= low) & (GRID <= high)
+        measured, name = spectra[~fitted][:, band].mean(1), f"{low}–{high} nm"
+        factors = [
+            np.median(list(infrared.errors(guess, measured, kinds[~fitted]).values()))
+            for guess in (found[~fitted][:, band].mean(1), rgb[~fitted].max(1))
+        ]
+        print(f"| {name} | {factors[0]:.2f} | {factors[1]:.2f} |")
     apart = neighbours(pairs(20000))
     for doppler, row in zip(NEIGHBOURS, apart):
         print(f"D {doppler}: neighbours {row.max():.1f} apart, 99 % below {np.percentile(row, 99):.1f}")

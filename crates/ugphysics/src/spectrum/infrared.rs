@@ -47,8 +47,8 @@ pub(crate) const FIRST_NM: f64 = CURVE_NM[1];
 /// The wavelengths of the levels, nm: the middles of the bands that the fit used.
 const LEVELS_NM: [f64; N_LEVELS] = [845.0, 1150.0, 1640.0, 2200.0];
 
-/// For each level, the coefficients of a fit to measured surfaces of 23 kinds,
-/// docs/physics/infrared.py.
+/// For each level, the coefficients of a fit to measured surfaces of 23 kinds, found as
+/// docs/physics/reflectance.py says.
 const FIT: [[f64; 3]; N_LEVELS] =
     [[0.9, -1.06, 1.2], [1.28, 0.05, 1.88], [0.03, -0.05, 2.14], [0.06, 1.85, 0.63]];
 
