@@ -5,8 +5,8 @@
 
 The spectra (MIT licence) are of soils (ICRAF-ISRIC), of roads, roofs, paints, dry plants and others
 (measured at Santa Barbara), and simulated canopies (PROSAIL), 400 to 2450 nm. Every kind counts alike.
-Half of the spectra are fitted, errors are those of the other half. The first band is (P20)'s; the others
-were fitted in the same way with neighbours in mind: reflectance.py.
+Half of the spectra are fitted, errors are those of the other half. The first band is (P20)'s; how the
+others were found: reflectance.py.
 """
 
 import csv

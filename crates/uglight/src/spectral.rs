@@ -95,11 +95,8 @@ impl SpectralShift {
             return gain * DVec3::from(surface.shifted(own));
         }
         // Surfaces reflect, and all else emits.
-        let curve = SmoothCurve::new(|nm| {
-            let part = |filter: &SpectralFilter<'_>| {
-                filter.color.transmittance(nm * shift(filter.doppler))
-            };
-            filters.iter().map(part).product::<f64>() * surface.transmittance(nm * own)
+        let curve = filters.iter().fold(SmoothCurve::of(surface, own), |curve, filter| {
+            curve.through(filter.color, shift(filter.doppler))
         });
         if !surface.is_surface() {
             return gain * DVec3::from(LightSpectrum::new(surface).seen_through(&curve, own));
@@ -154,7 +151,7 @@ impl SpectralColor {
     /// The same, tabulated over D: soon found for many factors.
     #[must_use]
     pub fn tabulated(self, grid: &DopplerGrid) -> Self {
-        Self { table: Some(grid.table()), ..self }
+        Self { spectrum: self.spectrum.tabulated(), table: Some(grid.table()), ..self }
     }
 
     /// False if the colour at rest is another than the one that was written.

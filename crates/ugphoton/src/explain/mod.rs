@@ -202,6 +202,7 @@ impl Teller<'_> {
             angle_deg: angles_deg.map(|[camera, _]| camera),
             angle_at_rest_deg: angles_deg.map(|[_, rest]| rest),
             doppler: point.doppler(),
+            assumed: self.explainer.assumed(point.face, point.doppler()),
             color: Some(self.color(visit)),
             linear: visit.light.to_array(),
         }

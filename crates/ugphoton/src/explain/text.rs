@@ -46,6 +46,7 @@ fn write_surface(
     }
     let equation = if traced.depth == 0 { "P10" } else { "along the whole path, P23" };
     out.doppler(surface.doppler, equation, explanation.colors.as_ref());
+    out.assumed(surface.assumed.as_ref());
     if let Some(color) = &surface.color {
         out.color(color);
     }

@@ -207,3 +207,55 @@ fn exposures_are_estimated_from_few_pixels() {
     assert_eq!(told("-aa 1 -ex auto -tc filmic -sz 60 45").1, None);
     assert_eq!(told("-aa 1 -ex .5 -tc filmic -sz 320 240"), (0.5, None));
 }
+
+/// Where only a colour is known, a shifted pixel depends on the reflectance assumed for it; a
+/// measured reflectance, a black body and a surface at rest assume nothing.
+#[test]
+fn assumed_reflectances_are_named() {
+    let told = |color: &str, args: &str| {
+        let scene = format!(
+            "c_rgb grey .5 .5 .5; c_rgb leaf .28 .32 .15; c_rgb red .8 .1 .1;
+            c_refl tin 400 .5 700 .6; c_bb hot 3000; c_rgb own .2 .3 .4;
+            v a -5 9 -5; v b 5 9 -5; v c 5 9 5; v d -5 9 5;
+            v e -5 9 -5 own; v f 5 9 -5 own; v g 5 9 5 own; v h -5 9 5 own;
+            f {color}; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 30;"
+        );
+        let args = format!("-qt -sp -sz 20 20 -aa 1 --explain 10,10 {args}");
+        let json = UGPHOTON.output(&format!("{args} --format json"), &scene);
+        let text = String::from_utf8(UGPHOTON.output(&args, &scene)).unwrap();
+        let json: Value = serde_json::from_slice(&json).unwrap();
+        (json["sample"]["surfaces"][0]["assumed"].clone(), text)
+    };
+    // Towards the eye with D = 1.3, about.
+    let fast = "-vel 0 -.257 0 -in";
+    let mut highest = [0.0; 3];
+    let classes =
+        [("(a b c d) grey", "grey"), ("(a b c d) leaf", "foliage"), ("(a b c d) red", "saturated")];
+    for ((color, class), highest) in classes.into_iter().zip(&mut highest) {
+        let (assumed, text) = told(color, fast);
+        assert_eq!(assumed["class"], class, "{text}");
+        let [low, high] = [0, 1].map(|end| number(&assumed["delta_e"][end]));
+        let line = format!(
+            "assumed       reflectance of surfaces of {class} colour (P20): 8 of 10 measured ones \
+             are off by dE*ab {low:.1} to {high:.1} at this D"
+        );
+        assert!(text.contains(&line) && low > 0.5, "{line}:\n{text}");
+        *highest = high;
+    }
+    assert!(highest[0] < highest[2] && highest[2] < highest[1], "{highest:?}");
+    // Colours of vertices may be of any class; beyond infrared and ultraviolet nothing was measured.
+    let (assumed, text) = told("(e f g h)", fast);
+    assert!(assumed["class"].is_null() && number(&assumed["delta_e"][1]) == highest[1], "{text}");
+    assert!(text.contains("surfaces of any colour (P20)"), "{text}");
+    let (assumed, text) = told("(a b c d) red", "-vel 0 .3 0 -in");
+    assert!(assumed["delta_e"].is_null() && text.contains("none were measured"), "{text}");
+    for (color, args) in [
+        ("(a b c d) tin", fast),
+        ("(a b c d) hot", fast),
+        ("(a b c d) red", ""),
+        ("(a b c d) red", "-vel 0 -.257 0 -in -look 1988"),
+    ] {
+        let (assumed, text) = told(color, args);
+        assert!(assumed.is_null() && !text.contains("assumed"), "{color} {args}:\n{text}");
+    }
+}

@@ -7,12 +7,9 @@
 
 use std::sync::LazyLock;
 
-use crate::spectrum::ranges::{CURVE_NM, smooth_step};
+use crate::spectrum::ranges::{CURVE_NM, N_NM, smooth_step};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 use crate::xyz_to_linear_srgb;
-
-/// Nanometres of the curve.
-pub(crate) const N_NM: usize = 401;
 
 /// Functions that a curve is a sum of: 1, two that go over to infrared, and one for each channel.
 pub(crate) const N_BASIS: usize = 6;
@@ -20,7 +17,7 @@ pub(crate) const N_BASIS: usize = 6;
 /// The amounts that are those of the channels.
 pub(crate) const N_FIXED: usize = N_BASIS - 3;
 
-/// ln ρ every 50 nm from 380 to 780 nm, fitted by docs/physics/infrared.py.
+/// ln ρ every 50 nm from 380 to 780 nm, found as docs/physics/reflectance.py says.
 const LN_ROUGHNESS: [f64; 9] = [-0.86, 5.36, -1.62, -1.02, -3.48, -0.84, -2.93, 6.0, 0.0];
 
 /// The power of the way from 380 to 780 nm by which greys go over to their infrared level.
@@ -37,7 +34,7 @@ const SOFT: f64 = 0.02;
 /// wavelength, bounded.  Eq. (P20)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Curve {
-    /// The amounts of the functions of [`basis`].
+    /// The amounts of the [`Functions`].
     pub amounts: [f64; N_BASIS],
     /// The bound.
     pub most: f64,
@@ -52,16 +49,60 @@ impl Curve {
         Self { amounts: [from, rise * (1.0 - foliage), rise * foliage, 0.0, 0.0, 0.0], most }
     }
 
-    pub fn at(&self, wavelength_nm: f64) -> f64 {
-        let at = (wavelength_nm - CURVE_NM[0]).clamp(0.0, (N_NM - 1) as f64);
-        let row = (at as usize).min(N_NM - 2);
-        let part = at - row as f64;
-        let [low, high] = [row, row + 1].map(|row| self.argument(&basis()[row]));
-        bounded(low + part * (high - low), self.most).0
+    /// The curve at a nanometre from 380 nm on.
+    pub fn at_node(&self, row: usize) -> f64 {
+        let x: f64 =
+            self.amounts.iter().zip(&functions().0).map(|(amount, f)| amount * f[row]).sum();
+        bounded(x, self.most).0
     }
 
-    fn argument(&self, basis: &[f64; N_BASIS]) -> f64 {
-        self.amounts.iter().zip(basis).map(|(amount, value)| amount * value).sum()
+    /// The curve at every nanometre.
+    pub fn values(&self) -> [f64; N_NM] {
+        functions().curve(self)
+    }
+}
+
+/// The functions that curves are sums of, at evenly spaced nodes from 380 to 780 nm: 1, the rise of
+/// greys, that of foliage, and one for each channel, which adds 1 to it and nothing to the others.
+#[derive(Clone, Debug)]
+pub(crate) struct Functions<const N: usize>([[f64; N]; N_BASIS]);
+
+impl<const N: usize> Functions<N> {
+    /// At every nanometre, or at fewer nodes.
+    pub fn new() -> Self {
+        let step = (N_NM - 1) / (N - 1);
+        let all = &functions().0;
+        Self(std::array::from_fn(|i| std::array::from_fn(|row| all[i][row * step])))
+    }
+
+    /// The curve at every node.
+    pub fn curve(&self, curve: &Curve) -> [f64; N] {
+        // A loop over one array is vectorized.
+        let mut values = self.arguments(curve);
+        values.iter_mut().for_each(|x| *x = bounded(*x, curve.most).0);
+        values
+    }
+
+    /// The curve at every node, and its derivatives with respect to the amounts of the channels.
+    pub fn curve_and_slopes(&self, curve: &Curve) -> ([f64; N], [[f64; N]; 3]) {
+        let mut values = self.arguments(curve);
+        let mut slope = values;
+        slope.iter_mut().for_each(|x| *x = bounded(*x, curve.most).1);
+        values.iter_mut().for_each(|x| *x = bounded(*x, curve.most).0);
+        let mut slopes = [slope; 3];
+        for (slope, function) in slopes.iter_mut().zip(&self.0[N_FIXED..]) {
+            slope.iter_mut().zip(function).for_each(|(slope, value)| *slope *= value);
+        }
+        (values, slopes)
+    }
+
+    fn arguments(&self, curve: &Curve) -> [f64; N] {
+        let mut sums = [curve.amounts[0]; N];
+        let parts = curve.amounts.iter().zip(&self.0).skip(1);
+        for (amount, function) in parts.filter(|(amount, _)| **amount != 0.0) {
+            sums.iter_mut().zip(function).for_each(|(sum, value)| *sum += amount * value);
+        }
+        sums
     }
 }
 
@@ -80,14 +121,13 @@ fn unbounded(value: f64, most: f64) -> f64 {
     half + (value - half) * (1.0 + SOFT * SOFT / (value * (most - value))).sqrt()
 }
 
-/// The values of the functions at each nanometre: 1, the rise of greys, that of foliage, and one
-/// for each channel, which adds 1 to it and nothing to the others.
-pub(crate) fn basis() -> &'static [[f64; N_BASIS]; N_NM] {
-    static BASIS: LazyLock<Box<[[f64; N_BASIS]; N_NM]>> = LazyLock::new(|| Box::new(new_basis()));
-    &BASIS
+/// The functions at every nanometre.
+fn functions() -> &'static Functions<N_NM> {
+    static FUNCTIONS: LazyLock<Box<Functions<N_NM>>> = LazyLock::new(|| Box::new(new_functions()));
+    &FUNCTIONS
 }
 
-fn new_basis() -> [[f64; N_BASIS]; N_NM] {
+fn new_functions() -> Functions<N_NM> {
     let light = WeightedDaylight::new(1.0);
     // Red, green and blue of each nanometre; below 380 nm the curve is constant.
     let weights: [[f64; 3]; N_NM] = std::array::from_fn(|row| {
@@ -118,20 +158,18 @@ fn new_basis() -> [[f64; N_BASIS]; N_NM] {
         })
     });
     let inverse = inverse(gram);
-    std::array::from_fn(|row| {
-        let way = row as f64 / (N_NM - 1) as f64;
-        let of = |channel: usize| -> f64 {
-            (0..3).map(|k| inverse[channel][k] * functions[row][k]).sum()
-        };
-        [
-            1.0,
-            libm::pow(way, RISE),
-            smooth_step(CURVE_NM[0] + row as f64, RED_EDGE_NM),
-            of(0),
-            of(1),
-            of(2),
-        ]
-    })
+    let channel = |channel: usize, row: usize| -> f64 {
+        (0..3).map(|k| inverse[channel][k] * functions[row][k]).sum()
+    };
+    let way = |row: usize| row as f64 / (N_NM - 1) as f64;
+    Functions([
+        [1.0; N_NM],
+        std::array::from_fn(|row| libm::pow(way(row), RISE)),
+        std::array::from_fn(|row| smooth_step(CURVE_NM[0] + row as f64, RED_EDGE_NM)),
+        std::array::from_fn(|row| channel(0, row)),
+        std::array::from_fn(|row| channel(1, row)),
+        std::array::from_fn(|row| channel(2, row)),
+    ])
 }
 
 /// The inverse of a regular matrix.

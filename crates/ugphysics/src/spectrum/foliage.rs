@@ -4,7 +4,7 @@ use crate::linear_srgb_to_xyz;
 use crate::spectrum::ranges::N_LEVELS;
 
 /// CIELAB coordinates of the colour that is most likely foliage, and the distances from it, along
-/// each axis, beyond which no colour is: simulated canopies, docs/physics/infrared.py.
+/// each axis, beyond which no colour is: simulated canopies; docs/physics/reflectance.py.
 const CENTRE: [f64; 3] = [30.0, -14.0, 26.0];
 const RADII: [f64; 3] = [30.0, 22.0, 24.0];
 
@@ -25,7 +25,7 @@ pub(crate) fn share(rgb: [f64; 3]) -> f64 {
 }
 
 /// L*, a* and b* of linear red, green and blue.
-fn lab(rgb: [f64; 3]) -> [f64; 3] {
+pub(crate) fn lab(rgb: [f64; 3]) -> [f64; 3] {
     /// Up to this value the cube root is replaced by a straight line.
     const LINEAR: f64 = 216.0 / 24389.0;
     let white = linear_srgb_to_xyz([1.0; 3]);

@@ -47,8 +47,8 @@ pub(crate) const FIRST_NM: f64 = CURVE_NM[1];
 /// The wavelengths of the levels, nm: the middles of the bands that the fit used.
 const LEVELS_NM: [f64; N_LEVELS] = [845.0, 1150.0, 1640.0, 2200.0];
 
-/// For each level, the coefficients of a fit to measured surfaces of 23 kinds,
-/// docs/physics/infrared.py.
+/// For each level, the coefficients of a fit to measured surfaces of 23 kinds, found as
+/// docs/physics/reflectance.py says.
 const FIT: [[f64; 3]; N_LEVELS] =
     [[0.9, -1.06, 1.2], [1.28, 0.05, 1.88], [0.03, -0.05, 2.14], [0.06, 1.85, 0.63]];
 
@@ -81,14 +81,33 @@ pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
 /// The share of each level in the reflectance at a wavelength, nm, beyond the curve of the colour.
 /// They add up to 1. Interpolated linearly between whole nanometres.
 pub(crate) fn parts(wavelength_nm: f64) -> [f64; N_LEVELS] {
+    let (low, high, part) = rows(wavelength_nm);
+    std::array::from_fn(|i| low[i] + part * (high[i] - low[i]))
+}
+
+/// The reflectance there of a surface with these levels.
+#[inline]
+pub(crate) fn mixed(levels: &[f64; N_LEVELS], wavelength_nm: f64) -> f64 {
+    let (low, high, part) = rows(wavelength_nm);
+    let mix = |shares: &[f64; N_LEVELS]| -> f64 {
+        (levels[0] * shares[0] + levels[1] * shares[1])
+            + (levels[2] * shares[2] + levels[3] * shares[3])
+    };
+    let (low, high) = (mix(low), mix(high));
+    low + part * (high - low)
+}
+
+/// The shares at the whole nanometres around a wavelength, and its place between them, 0 to 1.
+#[inline]
+fn rows(wavelength_nm: f64) -> (&'static [f64; N_LEVELS], &'static [f64; N_LEVELS], f64) {
     static ROWS: LazyLock<Vec<[f64; N_LEVELS]>> = LazyLock::new(|| {
         let last = LEVELS_NM[N_LEVELS - 1] as usize + 1;
         (FIRST_NM as usize..=last).map(|nm| shares(nm as f64)).collect()
     });
+    let rows = &**ROWS;
     let at = (wavelength_nm - FIRST_NM).max(0.0);
-    let row = (at as usize).min(ROWS.len() - 2);
-    let part = (at - row as f64).min(1.0);
-    std::array::from_fn(|i| ROWS[row][i] + part * (ROWS[row + 1][i] - ROWS[row][i]))
+    let row = (at as usize).min(rows.len() - 2);
+    (&rows[row], &rows[row + 1], (at - row as f64).min(1.0))
 }
 
 /// The share of each level at a wavelength, nm.

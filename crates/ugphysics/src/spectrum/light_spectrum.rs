@@ -69,13 +69,11 @@ impl LightSpectrum {
     /// X, Y, Z of L(λ) = C(λ) S(λD): of this light S, received with D = `doppler` and weakened on
     /// the way by C, without a factor for the radiance.  Eq. (P14), (P19)
     ///
-    /// Errors of daylight and light behind filters are below 5·10⁻³ of the largest of X, Y and Z,
-    /// of black bodies 10⁻³, of a spectral line 5·10⁻³; measured.
+    /// A sum over whole nanometres. Daylight in it is interpolated over ln D: with 81 pairs of
+    /// surfaces and filters, white to primaries, by at most 1.7·10⁻⁴ of the largest of X, Y and Z.
     pub fn seen_through(&self, curve: &SmoothCurve, doppler: f64) -> [f64; 3] {
         let xyz = match &self.source {
-            Source::Filtered(filter) => {
-                curve.times(|nm| filter.transmittance(nm * doppler)).xyz_of_daylight(doppler)
-            }
+            Source::Filtered(filter) => curve.through(filter, doppler).xyz_of_daylight(doppler),
             Source::Blackbody(kelvin) => curve.times(|nm| planck(nm * doppler, *kelvin)).xyz(),
             Source::ColdBody { kelvin, ln_scale } => {
                 let ln = |nm: f64| blackbody::ln_planck(nm * doppler, *kelvin) + ln_scale;
@@ -116,7 +114,7 @@ impl Spectrum {
     /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
     /// for (surface, lamp) in [(&white, &green), (&green, &white)] {
     ///     let seen = surface.under(&LightSpectrum::new(lamp), 1.0, 1.0).ok_or("a surface")?;
-    ///     assert!(seen.iter().zip(green.seen(1.0)).all(|(a, b)| (a - b).abs() < 1e-4));
+    ///     assert!(seen.iter().zip(green.seen(1.0)).all(|(a, b)| (a - b).abs() < 1e-9));
     /// }
     /// # Ok::<(), &str>(())
     /// ```
@@ -129,7 +127,7 @@ impl Spectrum {
         if !self.is_surface() {
             return None;
         }
-        let reflected = SmoothCurve::new(|nm| self.transmittance(nm * doppler));
+        let reflected = SmoothCurve::of(self, doppler);
         Some(light.seen_through(&reflected, doppler * light_doppler))
     }
 

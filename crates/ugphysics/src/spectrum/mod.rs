@@ -57,4 +57,4 @@ pub use observer::{integrate, observer};
 pub use radiance::Spectrum;
 pub use reflectance::Reflectance;
 pub use smooth_curve::SmoothCurve;
-pub use uncertainty::assumed_difference;
+pub use uncertainty::ColorClass;

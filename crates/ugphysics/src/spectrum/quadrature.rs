@@ -1,27 +1,28 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::spectrum::curve::{Curve, N_BASIS, N_FIXED, N_NM, basis, bounded};
-use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
+use std::ops::Range;
+
+use crate::spectrum::ranges::{N_LEVELS, N_NM};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 2 nm.
 pub(crate) const N_NODES: usize = 201;
 
 /// Number of nodes that each interpolation polynomial passes through.
-pub(crate) const N_POINTS: usize = 6;
+const N_POINTS: usize = 6;
 
 /// Evenly spaced nodes from 380 to 780 nm, each with a weight for X, Y and Z (or for red, green and
 /// blue): the contribution of a reflectance of 1 at that node.
 ///
 /// Between nodes the reflectance is interpolated by the polynomial through the six nearest nodes.
-/// Daylight and the observer are still evaluated at every nanometre at the eye, so only the
-/// reflectance has to be smooth.
+/// Daylight and the observer are still evaluated at every nanometre, so only the reflectance has to
+/// be smooth.
 #[derive(Clone, Debug)]
 pub(crate) struct Quadrature<const N: usize> {
-    /// The functions that curves are sums of, at each node.
-    basis: [[f64; N]; N_BASIS],
     /// The weights, by channel, of the curve of the colour.
     pub weights: [[f64; N]; 3],
+    /// The nodes with a weight.
+    used: Range<usize>,
     /// The weights of the infrared levels, by channel.
     infrared: [[f64; N_LEVELS]; 3],
 }
@@ -29,22 +30,22 @@ pub(crate) struct Quadrature<const N: usize> {
 impl<const N: usize> Quadrature<N> {
     /// The weights for the given light on a surface.
     pub fn new(light: &WeightedDaylight) -> Self {
-        let [first, last] = CURVE_NM;
-        let step_nm = (last - first) / (N - 1) as f64;
+        let step = ((N_NM - 1) / (N - 1)) as f64;
         let mut weights = [[0.0; N]; 3];
-        for (channel, weights) in weights.iter_mut().enumerate() {
-            // Below 380 nm the curve is constant.
-            weights[0] += light.ultraviolet[channel];
-            for (nm, weight) in light.wavelengths().zip(&light.inside[channel]) {
-                let (row, parts) = polynomial((nm - first) / step_nm, N);
+        for nm in 0..N_NM {
+            let (row, parts) = polynomial(nm as f64 / step, N);
+            for (weights, light) in weights.iter_mut().zip(&light.inside) {
                 for (node, part) in weights[row..].iter_mut().zip(parts) {
-                    *node += weight * part;
+                    *node += light[nm] * part;
                 }
             }
         }
-        let step = (N_NM - 1) / (N - 1);
-        let basis = std::array::from_fn(|i| std::array::from_fn(|row| basis()[row * step][i]));
-        Self { basis, weights, infrared: light.infrared }
+        // Below 380 nm the curve is constant.
+        weights.iter_mut().zip(light.ultraviolet).for_each(|(weights, part)| weights[0] += part);
+        let is_used = |row: &usize| weights.iter().any(|weights| weights[*row] != 0.0);
+        let first = (0..N).find(is_used).unwrap_or(N);
+        let end = (first..N).rfind(is_used).map_or(first, |last| last + 1);
+        Self { weights, used: first..end, infrared: light.infrared }
     }
 
     /// The same with the channels converted by `mix`, a linear map.
@@ -62,41 +63,19 @@ impl<const N: usize> Quadrature<N> {
 
     /// The integral for each channel, from the values of a curve at the nodes.
     pub fn sums(&self, values: &[f64; N]) -> [f64; 3] {
-        self.weights.each_ref().map(|weights| dot(values, weights))
+        let used = || self.used.clone();
+        self.weights.each_ref().map(|weights| dot(&values[used()], &weights[used()]))
     }
 
     /// What the infrared levels add to each channel.
     pub fn infrared(&self, levels: &[f64; N_LEVELS]) -> [f64; 3] {
         self.infrared.each_ref().map(|weights| dot(levels, weights))
     }
-
-    /// The curve at every node.
-    pub fn curve(&self, curve: &Curve) -> [f64; N] {
-        self.arguments(curve).map(|x| bounded(x, curve.most).0)
-    }
-
-    /// The curve at every node, and its derivatives with respect to the amounts of the channels.
-    pub fn curve_and_slopes(&self, curve: &Curve) -> ([f64; N], [[f64; N]; 3]) {
-        // Table by table, so that the compiler vectorizes the loops over nodes.
-        let both = self.arguments(curve).map(|x| bounded(x, curve.most));
-        let slope = |channel: usize| {
-            std::array::from_fn(|row| both[row].1 * self.basis[N_FIXED + channel][row])
-        };
-        (both.map(|(value, _)| value), std::array::from_fn(slope))
-    }
-
-    fn arguments(&self, curve: &Curve) -> [f64; N] {
-        let mut sums = [curve.amounts[0]; N];
-        for (amount, basis) in curve.amounts.iter().zip(&self.basis).skip(1) {
-            sums.iter_mut().zip(basis).for_each(|(sum, value)| *sum += amount * value);
-        }
-        sums
-    }
 }
 
 /// Lagrange interpolation at `at`, in steps from the first node: the first node used, and the
 /// weights of it and the ones after it.
-pub(crate) fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
+fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
     let row = (at as usize).saturating_sub(N_POINTS / 2 - 1).min(n_nodes - N_POINTS);
     let at = at - row as f64;
     let weight = |own: usize| {

@@ -3,6 +3,9 @@
 /// The range of the curve of a colour, nm: constant below it, and infrared beyond.
 pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 
+/// Nanometres of that range.
+pub(crate) const N_NM: usize = 401;
+
 /// Number of infrared levels.
 pub(crate) const N_LEVELS: usize = 4;
 

@@ -1,10 +1,12 @@
 //! Surface colours upsampled to reflectance spectra.
 
+use std::sync::Arc;
+
 use crate::spectrum::curve::Curve;
 use crate::spectrum::foliage;
 use crate::spectrum::infrared::{self, InfraredRule};
 use crate::spectrum::quadrature::{Quadrature, dot};
-use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS, N_NM};
 use crate::spectrum::upsampling::solve;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
@@ -22,11 +24,13 @@ const LARGEST_BOUND: f64 = 100.0;
 ///
 /// Greys have a constant reflectance, so white keeps the chromaticity of the illuminant. A colour
 /// with channels up to 0.98 has a reflectance up to 1, and brighter ones up to 1.02 of the largest.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reflectance {
     factor: f64,
     /// `None` for greys.
     curve: Option<Curve>,
+    /// The curve at every nanometre, if it is [tabulated](Self::tabulated).
+    values: Option<Arc<[f64; N_NM]>>,
     /// The reflectances at the levels of the [`InfraredRule`].
     levels: [f64; N_LEVELS],
 }
@@ -53,7 +57,7 @@ impl Reflectance {
         let [red, green, blue] = rgb;
         let levels = rule.levels(rgb);
         if red == green && green == blue {
-            return Some(Self { factor: red.max(0.0), curve: None, levels });
+            return Some(Self { factor: red.max(0.0), curve: None, values: None, levels });
         }
         let largest = red.max(green).max(blue);
         if !(largest > 0.0 && rgb.iter().all(|channel| channel.is_finite())) {
@@ -68,29 +72,55 @@ impl Reflectance {
             let most = (1.0 / largest).clamp(least, LARGEST_BOUND);
             let start = Curve::between(1.0, parts[0], foliage, most);
             let curve = solve(rgb.map(|channel| channel / largest), start, parts)?;
-            Some(Self { factor: largest, curve: Some(curve), levels })
+            Some(Self { factor: largest, curve: Some(curve), values: None, levels })
         })
+    }
+
+    /// The same, soon found at many wavelengths and Doppler factors.
+    pub(crate) fn tabulated(mut self) -> Self {
+        self.values = self.curve.map(|curve| Arc::new(curve.values()));
+        self
     }
 
     /// The reflectance at a wavelength in nm.
     pub fn at(&self, wavelength_nm: f64) -> f64 {
+        self.at_with(wavelength_nm, |row| match (&self.values, &self.curve) {
+            (Some(values), _) => values[row],
+            (None, Some(curve)) => curve.at_node(row),
+            (None, None) => 1.0,
+        })
+    }
+
+    /// The reflectance at each of many wavelengths in nm.
+    pub(crate) fn at_each<const N: usize>(&self, nm: impl Fn(usize) -> f64) -> [f64; N] {
+        let values = self.values();
+        std::array::from_fn(|k| self.at_with(nm(k), |row| values[row]))
+    }
+
+    /// Between whole nanometres the curve is interpolated linearly. `value`: of a nanometre of it.
+    #[inline]
+    fn at_with(&self, wavelength_nm: f64, value: impl Fn(usize) -> f64) -> f64 {
         if wavelength_nm > infrared::FIRST_NM {
-            return dot(&self.levels, &infrared::parts(wavelength_nm));
+            return infrared::mixed(&self.levels, wavelength_nm);
         }
-        self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm))
+        let at = (wavelength_nm - CURVE_NM[0]).max(0.0);
+        let row = (at as usize).min(N_NM - 2);
+        let (low, high) = (value(row), value(row + 1));
+        self.factor * (low + (at - row as f64) * (high - low))
+    }
+
+    /// The curve at every nanometre.
+    fn values(&self) -> Arc<[f64; N_NM]> {
+        let new = || Arc::new(self.curve.map_or([1.0; N_NM], |curve| curve.values()));
+        self.values.clone().unwrap_or_else(new)
     }
 
     /// X, Y, Z of L(λ) = L'(λD) under daylight, which is computed beforehand: (P12) without D⁵.
     pub(crate) fn xyz_under(&self, light: &WeightedDaylight) -> [f64; 3] {
-        let ultraviolet = self.at(CURVE_NM[0]);
-        let reflected: Vec<f64> = match self.curve {
-            Some(curve) => light.wavelengths().map(|nm| curve.at(nm)).collect(),
-            None => vec![1.0; light.inside[0].len()],
-        };
+        let values = self.values();
         std::array::from_fn(|i| {
-            ultraviolet * light.ultraviolet[i]
-                + dot(&self.levels, &light.infrared[i])
-                + self.factor * dot(&reflected, &light.inside[i])
+            let visible = values[0] * light.ultraviolet[i] + dot(&values[..], &light.inside[i]);
+            self.factor * visible + dot(&self.levels, &light.infrared[i])
         })
     }
 

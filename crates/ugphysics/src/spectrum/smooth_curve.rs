@@ -1,4 +1,4 @@
-//! Integrals of a light times a smooth curve, such as a reflectance, from few values of the curve.
+//! Integrals of a light times a curve, such as a reflectance.
 
 use std::sync::{LazyLock, OnceLock};
 
@@ -6,13 +6,11 @@ use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
 use crate::spectrum::daylight::daylight;
 use crate::spectrum::doppler_table::{Cell, LN_STEP};
 use crate::spectrum::observer::SUM_Y;
-use crate::spectrum::quadrature::{N_POINTS, dot, polynomial};
+use crate::spectrum::quadrature::dot;
+use crate::spectrum::radiance::{Kind, Spectrum};
 
-/// nm at the eye from node to node.
-const STEP_NM: usize = 1;
-
-/// Nodes from 360 nm to 830 nm and beyond.
-const N_NODES: usize = (CIE_1931.len() - 1).div_ceil(STEP_NM) + 1;
+/// Whole nanometres at the eye.
+const N_NM: usize = CIE_1931.len();
 
 /// [`LN_STEP`] over the step of the table of daylight, whose corners need it.
 const FINER: f64 = 2.0;
@@ -26,35 +24,49 @@ const LAST: i32 = (REACH * FINER / LN_STEP) as i32 + 2;
 /// Rows of that table.
 const N_ROWS: usize = 2 * LAST as usize + 1;
 
-/// A smooth function of the wavelength at the eye, at the nodes of a quadrature: what surfaces
-/// reflect and filters transmit.
-///
-/// Between its nodes, one every nanometre, it is interpolated by the polynomial through the six nearest.
-/// The light that it multiplies need not be smooth.
+/// A function of the wavelength at the eye, at every nanometre: what surfaces reflect and filters
+/// transmit.
 ///
 /// ```
 /// use ugphysics::spectrum::{LightSpectrum, SmoothCurve, Spectrum};
 ///
 /// // White seen through a filter of a colour has this colour.
 /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
-/// let filter = SmoothCurve::new(|nm| green.transmittance(nm));
+/// let filter = SmoothCurve::of(&green, 1.0);
 /// let white = LightSpectrum::new(&Spectrum::from_linear_srgb([1.0; 3]));
 /// let seen = white.seen_through(&filter, 1.0);
-/// assert!(seen.iter().zip(green.seen(1.0)).all(|(a, b)| (a - b).abs() < 1e-4));
+/// assert!(seen.iter().zip(green.seen(1.0)).all(|(a, b)| (a - b).abs() < 1e-9));
 /// ```
 #[derive(Clone, Debug)]
-pub struct SmoothCurve([f64; N_NODES]);
+pub struct SmoothCurve([f64; N_NM]);
 
 impl SmoothCurve {
     /// `curve`: a function of the wavelength at the eye, nm.
     pub fn new(curve: impl Fn(f64) -> f64) -> Self {
-        Self(std::array::from_fn(|node| curve((FIRST_NM + STEP_NM * node) as f64)))
+        Self(std::array::from_fn(|row| curve((FIRST_NM + row) as f64)))
+    }
+
+    /// What a surface reflects and a filter of its colour transmits, seen with a Doppler factor: all
+    /// of it if the spectrum is not that of a surface.
+    pub fn of(spectrum: &Spectrum, doppler: f64) -> Self {
+        let nm = |row: usize| (FIRST_NM + row) as f64 * doppler;
+        match &spectrum.0 {
+            Kind::Reflected(surface) => Self(surface.at_each(nm)),
+            _ => Self(std::array::from_fn(|row| spectrum.transmittance(nm(row)))),
+        }
+    }
+
+    /// The product with that of another surface or filter.
+    #[must_use]
+    pub fn through(&self, filter: &Spectrum, doppler: f64) -> Self {
+        let other = Self::of(filter, doppler);
+        Self(std::array::from_fn(|row| self.0[row] * other.0[row]))
     }
 
     /// The product with another curve.
     pub(crate) fn times(&self, curve: impl Fn(f64) -> f64) -> Self {
         let other = Self::new(curve);
-        Self(std::array::from_fn(|node| self.0[node] * other.0[node]))
+        Self(std::array::from_fn(|row| self.0[row] * other.0[row]))
     }
 
     /// X, Y, Z of the curve.
@@ -94,21 +106,17 @@ fn daylight_row(row: usize) -> &'static Weights {
     })
 }
 
-/// X, Y, Z of a light where a curve is 1 at a node and 0 at the others, by channel.
+/// X, Y, Z of a light at every nanometre, by channel.
 #[derive(Debug)]
-struct Weights([[f64; N_NODES]; 3]);
+struct Weights([[f64; N_NM]; 3]);
 
 impl Weights {
     /// `light`: a function of the wavelength at the eye, nm.
     fn new(light: impl Fn(f64) -> f64) -> Self {
-        let mut weights = [[0.0; N_NODES]; 3];
-        for (row, (observer, (node, parts))) in CIE_1931.iter().zip(&*POLYNOMIALS).enumerate() {
+        let mut weights = [[0.0; N_NM]; 3];
+        for (row, observer) in CIE_1931.iter().enumerate() {
             let level = light((FIRST_NM + row) as f64) / SUM_Y;
-            for (weights, part_of_channel) in weights.iter_mut().zip(observer) {
-                for (weight, part) in weights[*node..].iter_mut().zip(parts) {
-                    *weight += level * part_of_channel * part;
-                }
-            }
+            weights.iter_mut().zip(observer).for_each(|(of, part)| of[row] = level * part);
         }
         Self(weights)
     }
@@ -117,9 +125,3 @@ impl Weights {
         self.0.each_ref().map(|weights| dot(&curve.0, weights))
     }
 }
-
-/// For each nm, the first node that a curve is interpolated from, and the parts of it and of those
-/// after it.
-static POLYNOMIALS: LazyLock<Vec<(usize, [f64; N_POINTS])>> = LazyLock::new(|| {
-    (0..CIE_1931.len()).map(|row| polynomial(row as f64 / STEP_NM as f64, N_NODES)).collect()
-});

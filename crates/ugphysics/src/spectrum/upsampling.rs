@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use crate::xyz_to_linear_srgb;
 
-use crate::spectrum::curve::{Curve, N_FIXED, N_NM};
-use crate::spectrum::quadrature::{N_NODES, Quadrature, dot};
-use crate::spectrum::ranges::N_LEVELS;
+use crate::spectrum::curve::{Curve, Functions, N_FIXED};
+use crate::spectrum::quadrature::{Quadrature, dot};
+use crate::spectrum::ranges::{N_LEVELS, N_NM};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// The iteration stops at this error, in linear light.
@@ -15,8 +15,8 @@ const TOLERANCE: f64 = 1e-10;
 /// The largest error of an accepted solution, in linear light.
 const ACCEPTED_ERROR: f64 = 1e-9;
 
-/// The error on the middle grid from which on every nanometre is summed.
-const ONE_STEP_ERROR: f64 = 1e-7;
+/// The error on the coarse grid, in linear light, from which on every nanometre is summed.
+const COARSE_ERROR: f64 = 3e-5;
 
 /// Largest number of damped steps.
 const MAX_DAMPED_STEPS: usize = 200;
@@ -25,14 +25,13 @@ const MAX_DAMPED_STEPS: usize = 200;
 const MAX_NEWTON_STEPS: usize = 8;
 
 /// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB,
-/// by the Levenberg–Marquardt method: first on nodes every 2 nm, then on every nanometre. `start`:
+/// by the Levenberg–Marquardt method: first on nodes every 4 nm, then on every nanometre. `start`:
 /// a curve with its ends and its bound. `None` if no curve is found.
 pub(crate) fn solve(color: [f64; 3], start: Curve, levels: [f64; N_LEVELS]) -> Option<Curve> {
-    let (middle, fine) = grids();
-    let infrared = fine.infrared(&levels);
+    let (coarse, fine) = grids();
+    let infrared = fine.quadrature.infrared(&levels);
     let target = std::array::from_fn(|i| color[i] - infrared[i]);
-    // Where the bounds are far, the curve is linear in the colour: one step is enough.
-    let near = levenberg_marquardt(middle, target, start, ONE_STEP_ERROR, 1e-9);
+    let near = levenberg_marquardt(coarse, target, start, COARSE_ERROR, 1e-9);
     refine(fine, target, &near).or_else(|| {
         [near.curve, start].into_iter().find_map(|start| {
             let found = levenberg_marquardt(fine, target, start, TOLERANCE, 1e-3);
@@ -47,12 +46,12 @@ fn moved(mut curve: Curve, step: [f64; 3]) -> Curve {
     curve
 }
 
-/// Newton's method on every nanometre, with the derivatives of the nearby solution on the middle
+/// Newton's method on every nanometre, with the derivatives of the nearby solution on the coarse
 /// grid. `None` if it does not converge.
 fn refine(fine: &Fine, target: [f64; 3], near: &Evaluation) -> Option<Curve> {
     let mut curve = near.curve;
     for _ in 0..MAX_NEWTON_STEPS {
-        let sums = fine.sums(&fine.curve(&curve));
+        let sums = fine.quadrature.sums(&fine.functions.curve(&curve));
         let error: [f64; 3] = std::array::from_fn(|i| sums[i] - target[i]);
         if max_norm(error) < TOLERANCE {
             return Some(curve);
@@ -62,17 +61,29 @@ fn refine(fine: &Fine, target: [f64; 3], near: &Evaluation) -> Option<Curve> {
     None
 }
 
-/// Nodes every 2 nm, and at every nanometre.
-type Grids = (Quadrature<N_NODES>, Fine);
-type Fine = Quadrature<N_NM>;
+/// Nodes every 4 nm, and at every nanometre.
+type Grids = (Grid<101>, Fine);
+type Fine = Grid<N_NM>;
 
-/// The grids with weights for linear red, green and blue at rest.
+/// Weights for linear red, green and blue at rest, and the functions of curves.
+struct Grid<const N: usize> {
+    quadrature: Quadrature<N>,
+    functions: Functions<N>,
+}
+
+impl<const N: usize> Grid<N> {
+    fn new(light: &WeightedDaylight) -> Self {
+        let quadrature = Quadrature::new(light).mixed(xyz_to_linear_srgb);
+        Self { quadrature, functions: Functions::new() }
+    }
+}
+
+/// Both grids, made at first use.
 fn grids() -> &'static Grids {
     static GRIDS: OnceLock<Grids> = OnceLock::new();
     GRIDS.get_or_init(|| {
         let light = WeightedDaylight::new(1.0);
-        let mix = xyz_to_linear_srgb;
-        (Quadrature::new(&light).mixed(mix), Quadrature::new(&light).mixed(mix))
+        (Grid::new(&light), Grid::new(&light))
     })
 }
 
@@ -86,7 +97,7 @@ struct Evaluation {
 
 /// Levenberg–Marquardt steps until the largest error is below `tolerance`; returns the best curve.
 fn levenberg_marquardt<const N: usize>(
-    grid: &Quadrature<N>,
+    grid: &Grid<N>,
     target: [f64; 3],
     start: Curve,
     tolerance: f64,
@@ -112,10 +123,11 @@ fn levenberg_marquardt<const N: usize>(
     best
 }
 
-fn evaluate<const N: usize>(grid: &Quadrature<N>, target: [f64; 3], curve: Curve) -> Evaluation {
-    let (values, basis) = grid.curve_and_slopes(&curve);
-    let sums = grid.sums(&values);
-    let slopes = std::array::from_fn(|i| std::array::from_fn(|j| dot(&basis[j], &grid.weights[i])));
+fn evaluate<const N: usize>(grid: &Grid<N>, target: [f64; 3], curve: Curve) -> Evaluation {
+    let (values, slopes) = grid.functions.curve_and_slopes(&curve);
+    let sums = grid.quadrature.sums(&values);
+    let weights = &grid.quadrature.weights;
+    let slopes = std::array::from_fn(|i| std::array::from_fn(|j| dot(&slopes[j], &weights[i])));
     Evaluation { curve, error: std::array::from_fn(|i| sums[i] - target[i]), slopes }
 }
 

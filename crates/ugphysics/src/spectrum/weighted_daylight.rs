@@ -4,27 +4,24 @@ use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
 use crate::spectrum::daylight::daylight;
 use crate::spectrum::infrared;
 use crate::spectrum::observer::weighted_sums;
-use crate::spectrum::ranges::{CURVE_NM, N_LEVELS};
+use crate::spectrum::ranges::{CURVE_NM, N_LEVELS, N_NM};
 
 /// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct WeightedDaylight {
-    doppler: f64,
     /// X, Y, Z of the light emitted below 380 nm.
     pub ultraviolet: [f64; 3],
     /// X, then Y, then Z of the light at each infrared level of a reflectance.
     pub infrared: [[f64; N_LEVELS]; 3],
-    /// Wavelength at the eye, nm, of the first row of `inside`.
-    first_nm: f64,
-    /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
-    pub inside: [Vec<f64>; 3],
+    /// X, then Y, then Z of the light emitted at 380…780 nm, where a curve is 1 at a nanometre and
+    /// falls to 0 at the next.
+    pub inside: [[f64; N_NM]; 3],
 }
 
 impl WeightedDaylight {
     pub fn new(doppler: f64) -> Self {
-        let inside = [0; 3].map(|_| Vec::with_capacity(CIE_1931.len()));
         let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
-        let mut light = Self { doppler, ultraviolet, infrared, first_nm: 0.0, inside };
+        let mut light = Self { ultraviolet, infrared, inside: [[0.0; N_NM]; 3] };
         let scale = 1.0 / white_luminance();
         for (row, weights) in CIE_1931.iter().enumerate() {
             let seen_nm = (FIRST_NM + row) as f64;
@@ -39,19 +36,16 @@ impl WeightedDaylight {
                     levels.iter_mut().zip(shares).for_each(|(level, share)| *level += share * part);
                 }
             } else {
-                if light.inside[0].is_empty() {
-                    light.first_nm = seen_nm;
+                let at = emitted_nm - CURVE_NM[0];
+                let node = (at as usize).min(N_NM - 2);
+                let behind = at - node as f64;
+                for (channel, part) in light.inside.iter_mut().zip(xyz) {
+                    channel[node] += (1.0 - behind) * part;
+                    channel[node + 1] += behind * part;
                 }
-                light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
             }
         }
         light
-    }
-
-    /// Emitted wavelengths of the rows of `inside`, nm.
-    pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
-        // Rows as i32, which vectors convert to f64.
-        (0..self.inside[0].len() as i32).map(|row| (self.first_nm + f64::from(row)) * self.doppler)
     }
 }
 

@@ -9,8 +9,11 @@ use serde::Serialize;
 use ugimage::{Filter, LinearFrame, Quantizer, display_pixel};
 use uglight::Interpolation;
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
+use ugphysics::spectrum::ColorClass;
 use ugphysics::{Hsv, attenuation, linear_srgb_to_xyz};
-use ugscene::{Scene, SeenColors, has_moving_bodies, has_moving_lights};
+use ugscene::{
+    ColorId, ColorScale, Scene, SeenColors, VertexId, has_moving_bodies, has_moving_lights,
+};
 
 use crate::{Backdrop, Background, PictureOptions};
 
@@ -105,10 +108,23 @@ pub struct ExplainedSurface {
     /// Doppler factor, from the surface to the eye.
     #[serde(rename = "D")]
     pub doppler: f64,
+    /// What is assumed of its reflectance; `None` if nothing is, or if nothing depends on it.
+    pub assumed: Option<AssumedReflectance>,
     /// Its lit colour; `None` for a translucent surface of which only the light is known.
     pub color: Option<SampleColor>,
     /// Its own light: linear red, green and blue.
     pub linear: [f64; 3],
+}
+
+/// How far the colour of a surface in motion depends on the reflectance that is assumed for its
+/// colour at rest, (P20).
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct AssumedReflectance {
+    /// Its class of colours; `None` if textures or vertices have colours of their own.
+    pub class: Option<&'static str>,
+    /// The ΔE*ab below which 10 % and 90 % of measured surfaces of this class are; `None` if none
+    /// were measured for this Doppler factor.
+    pub delta_e: Option<[f64; 2]>,
 }
 
 /// An event.
@@ -264,6 +280,35 @@ impl Explainer<'_> {
             }),
             steps,
         }
+    }
+
+    /// What is assumed of the reflectance of a face or wire, seen with a Doppler factor. `row`: as
+    /// for [`Explainer::item`].
+    pub fn assumed(&self, row: u32, doppler: f64) -> Option<AssumedReflectance> {
+        let Self { scene, .. } = self;
+        let is_shifted = self
+            .colors
+            .is_some_and(|seen| seen.doppler && matches!(seen.scale, ColorScale::Spectra { .. }));
+        let item = scene.drawn().nth(row as usize)?;
+        if !is_shifted || doppler == 1.0 {
+            return None;
+        }
+        // Colours of vertices as seen do not tell those at rest.
+        let has_own = |vertex: &VertexId| scene.vertices[vertex.index()].color.is_some();
+        let is_mixed = scene.stage.seen_colors().is_none()
+            && scene.contours.corners(item.contours).iter().any(has_own);
+        let is_plain = |color: &ColorId| scene.texture_of(*color).is_none() && !is_mixed;
+        let Some(color) = item.color.filter(is_plain) else {
+            let ranges = ColorClass::ALL.map(|class| class.difference(doppler));
+            let widest = |a: Option<[f64; 2]>, b: Option<[f64; 2]>| {
+                a.zip(b).map(|(a, b)| [a[0].min(b[0]), a[1].max(b[1])])
+            };
+            let delta_e = ranges.into_iter().reduce(widest).flatten();
+            return Some(AssumedReflectance { class: None, delta_e });
+        };
+        let (spectrum, _) = uglight::spectrum(scene, &scene.colors[color.index()]);
+        let class = ColorClass::of(&spectrum)?;
+        Some(AssumedReflectance { class: Some(class.name()), delta_e: class.difference(doppler) })
     }
 
     /// The name of a face or wire, and its place in the text. `row`: of a face, or of a wire plus

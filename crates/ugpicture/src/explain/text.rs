@@ -3,11 +3,11 @@
 use std::fmt::Display;
 
 use serde::{Serialize, Serializer};
-use ugphysics::spectrum::assumed_difference;
 use ugscene::{ColorScale, SeenColors};
 
 use super::{
-    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, SampleColor,
+    AssumedReflectance, ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation,
+    HueWavelength, SampleColor,
 };
 
 /// A sample, explained by one of the renderers.
@@ -156,16 +156,20 @@ impl ExplanationText {
             "colours",
             format!("as seen: {shift}, brightness {law}: times {power} (P12){lights}"),
         );
-        if seen.doppler && doppler != 1.0 && matches!(seen.scale, ColorScale::Spectra { .. }) {
-            let off = match assumed_difference(doppler) {
-                Some(range) => {
-                    let [low, high] = range.map(|part| format!("{part:.1}"));
-                    format!("measured surfaces are off by dE*ab {low} to {high} at this D")
-                }
-                None => "no surfaces were measured for this D".to_owned(),
-            };
-            self.row("assumed", format!("reflectance, if only the colour is given (P20): {off}"));
-        }
+    }
+
+    /// What is assumed of a surface of which only the colour is known.
+    pub fn assumed(&mut self, assumed: Option<&AssumedReflectance>) {
+        let Some(assumed) = assumed else { return };
+        let off = match assumed.delta_e {
+            Some(range) => {
+                let [low, high] = range.map(|part| format!("{part:.1}"));
+                format!("8 of 10 measured ones are off by dE*ab {low} to {high} at this D")
+            }
+            None => "none were measured for this D".to_owned(),
+        };
+        let class = assumed.class.unwrap_or("any");
+        self.row("assumed", format!("reflectance of surfaces of {class} colour (P20): {off}"));
     }
 
     /// The colour of a sample: its numbers, and the wavelength at rest and as seen.

@@ -189,6 +189,7 @@ impl Teller<'_> {
             angle_deg: angle(place),
             angle_at_rest_deg: angle(rest),
             doppler,
+            assumed: self.explainer.assumed(seen.item, doppler),
             color: values.map(|values| self.color(values, seen.item, doppler)),
             linear: light.map(f64::from),
         };

@@ -13,6 +13,7 @@ impl WriteSample for RasterSample {
         let surface = &self.surface;
         out.surface(surface, explanation.is_at_rest);
         out.doppler(surface.doppler, "P10", explanation.colors.as_ref());
+        out.assumed(surface.assumed.as_ref());
         out.rows("corner", &self.corners, MAX_CORNERS, corner_text);
         if let Some(color) = &surface.color {
             out.color(color);

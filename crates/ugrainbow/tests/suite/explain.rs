@@ -262,3 +262,23 @@ fn lights_have_their_names() {
     check("l sky .2; l glow .1; l lamp 1 2 -3 4 0;", &["ambient", "lamp"]);
     check("", &["ambient", "directional 1"]);
 }
+
+/// As `ugdoppler -sp` writes them: the colour of a face is that at rest, those of its vertices are
+/// as seen.
+#[test]
+fn assumed_reflectances_are_named() {
+    for (color, word, class) in
+        [("leaf", "", "foliage"), ("tin", "", ""), ("leaf", "no-doppler", "")]
+    {
+        let scene = format!(
+            "(ugstage 1 colors as-seen spectra lights {word})
+            c_rgb leaf .28 .32 .15; c_refl tin 400 .5 700 .6; c_xyz seen .4 .4 .2;
+            v a -5 10 -5 seen; v b 5 10 -5 seen; v c 5 10 5 seen; v d -5 10 5 seen;
+            f (a b c d) {color} <0 -.257 0>; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 30;"
+        );
+        let (told, text) = (told(&scene, "--explain 30,22"), text(&scene, "--explain 30,22"));
+        let found = told["sample"]["assumed"]["class"].as_str().unwrap_or_default();
+        assert_eq!(found, class, "{text}");
+        assert_eq!(text.contains("(P20)"), !class.is_empty(), "{text}");
+    }
+}
