@@ -20,9 +20,15 @@ fn a_mesh_goes_through_a_pipe_and_back() {
     let text = ugmesh.text("-center -fit 1 -name cube cube.obj", "");
     let version = env!("CARGO_PKG_VERSION");
     let head = format!("{{ ugmesh {version}: ugmesh --center -fit 1 --name cube }}\n");
-    let (origin, rest) = text.split_once('\n').unwrap();
-    assert!(origin.starts_with("{ SHA-256 ") && origin.ends_with(" cube.obj }"), "{origin}");
-    assert!(rest.starts_with(&head), "{text}");
+    let mut lines = text.split_inclusive('\n');
+    for name in ["cube.obj", "cube.mtl"] {
+        let read = lines.next().unwrap();
+        assert!(
+            read.starts_with("{ SHA-256 ") && read.ends_with(&format!(" {name} }}\n")),
+            "{read}"
+        );
+    }
+    assert_eq!(lines.next(), Some(&*head), "{text}");
     assert!(
         text.contains("c_rgb cube_red 1 0 0;\n")
             && text.contains("f (cube_v1 cube_v2 cube_v5) cube_red;\n"),

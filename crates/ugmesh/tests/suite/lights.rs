@@ -53,7 +53,7 @@ fn lights_that_gltf_does_not_have_are_noted() {
         let config = Config { target: Target::Glb, ..Config::default() };
         convert(&config, "a.ug", text).unwrap().notes
     };
-    let why = "glTF has only directional lights, and points and spots with a reference distance";
+    let why = "glTF has only directional lights, and points and spots up to 90° with a reference distance";
     let many = format!("3 lights are left out: {why}");
     assert_eq!(
         notes("l 0.3; l 1 0 0 1 0; l 1 0 0 1 0 2 -area 1 0 0 0 1 0; l 1 0 0 1;", ""),

@@ -220,7 +220,7 @@ fn assumed_reflectances_are_named() {
             v e -5 9 -5 own; v f 5 9 -5 own; v g 5 9 5 own; v h -5 9 5 own;
             f {color}; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 30;"
         );
-        let args = format!("-qt -sp -sz 20 20 -aa 1 --explain 10,10 {args}");
+        let args = format!("-qt -sz 20 20 -aa 1 --explain 10,10 {args}");
         let json = UGPHOTON.output(&format!("{args} --format json"), &scene);
         let text = String::from_utf8(UGPHOTON.output(&args, &scene)).unwrap();
         let json: Value = serde_json::from_slice(&json).unwrap();

@@ -279,7 +279,9 @@ fn the_command_line_is_recorded_without_streams_and_threads() {
     assert_run(&run(&folder, &Vec::from_iter(args.split(' '))), 0, "", "");
     assert_eq!(
         read(&folder, "out.ug"),
-        format!("{{ ugcat -vel -.9 0 -1e-3 -va 40 --head --title $'\\173a\\175' }}\n{SHIP}")
+        format!(
+            "{{ ugcat -vel -.9 0 -1e-3 -va 40 --head --title \"$(printf '\\173')\"'a'\"$(printf '\\175')\" }}\n{SHIP}"
+        )
     );
 }
 
