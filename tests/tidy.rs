@@ -178,20 +178,14 @@ fn published() -> Vec<(String, PathBuf, String)> {
 /// shows; whoever publishes fills in one line of the workspace for all of them.
 #[test]
 fn packages_of_crates_are_complete() {
-    const INHERITED: [&str; 7] = [
-        "version",
-        "edition",
-        "rust-version",
-        "license",
-        "repository",
-        "keywords",
-        "categories",
-    ];
+    const INHERITED: [&str; 7] =
+        ["version", "edition", "rust-version", "license", "repository", "keywords", "categories"];
     let mut findings = Vec::new();
     let published = published();
     assert!(published.len() > 20, "{} crates", published.len());
     for (krate, folder, manifest) in &published {
-        let lacks = INHERITED.iter().filter(|key| !manifest.contains(&format!("\n{key}.workspace")));
+        let lacks =
+            INHERITED.iter().filter(|key| !manifest.contains(&format!("\n{key}.workspace")));
         findings.extend(lacks.map(|key| format!("{krate}: add `{key}.workspace = true`")));
         // Without the key, cargo takes the README of the folder.
         if manifest.contains("\nreadme") {
