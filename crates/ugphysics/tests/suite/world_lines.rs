@@ -55,14 +55,16 @@ fn nested_frames_are_products_of_matrices() {
     for first in 0..all.len() {
         let mut nested = all[first];
         let (mut axes, mut start) = (all[first].axes(), all[first].start());
+        let mut gamma = all[first].velocity.gamma();
         for next in (0..all.len()).filter(|&next| next != first) {
             nested = nested.carrying(&all[next]).unwrap();
             start = start + axes.apply(all[next].start());
             axes = axes * all[next].axes();
-            let gamma = axes.matrix().w_axis.w.abs();
+            gamma *= all[next].velocity.gamma();
             let pairs = entries(nested.axes()).into_iter().zip(entries(axes));
             let worst = pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
-            // Velocities in texts are rounded to 17 digits; boosts magnify that by γ².
+            // Velocities in texts are rounded to 17 digits; each boost magnifies that by its γ, there
+            // and back.
             assert!(worst < 1e-14 * gamma * gamma, "{first} {next}: {worst:e}, γ {gamma}");
             let got = nested.start();
             let off = (got.x - start.x).length() + (got.t - start.t).abs();
