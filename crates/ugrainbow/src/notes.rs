@@ -1,7 +1,7 @@
 //! Notes for the user about a picture, above all why it is empty.
 
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
-use ugpicture::{Background, Note};
+use ugpicture::{Background, Note, is_all_transparent};
 use ugraster::{DepthFade, SampleStats};
 use ugscene::Scene;
 
@@ -54,7 +54,9 @@ fn why_nothing_is_seen(
     DrawnScene { setup, stats, .. }: &DrawnScene<'_>,
     has_lights: bool,
 ) -> Option<Note> {
-    if stats.covered == 0 {
+    // Fully transparent faces cover samples.
+    let is_clear = config.wireframe.is_none() && is_all_transparent(setup.scene());
+    if stats.covered == 0 || is_clear {
         return Some(ugpicture::why_nothing_is_seen(setup.scene(), Some(&setup.view), config.cull));
     }
     if stats.visible > 0 || stats.out_of_range > 0 {
