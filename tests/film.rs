@@ -877,7 +877,7 @@ fn a_film_says_which_frames_are_empty_or_black() {
     // Too dark, and too bright.
     let found = film("-look shape -ti 8..10 -ex -9", "l 1;");
     says(&found, "hardly anything is bright enough to be seen in all 9 frames that were drawn: ");
-    let found = film("-ti 8..10 -ex 9", "l 1;");
+    let found = film("-ti 8..10 -ex 14", "l 1;");
     says(&found, "than a tenth of what is in the picture is white in all 9 frames that were drawn");
     let found = film("-look shape", "l 0;");
     says(&found, "all that is in the picture is black in 2 of 9 frames that were drawn, 5..6: ");

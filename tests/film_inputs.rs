@@ -99,7 +99,7 @@ fn glb(version: usize) -> Vec<u8> {
     [&head, json.as_bytes(), &between, &image].concat()
 }
 
-const TEXTURED: &[&str] = &["tex.ug", "-rays tex.ug", "-xc -sd 1 tex.ug", "-wf tex.ug"];
+const TEXTURED: &[&str] = &["tex.ug", "-rays tex.ug", "-xc -sd 1 tex.ug"];
 const MESH: &[&str] = &["s.obj", "-rays s.obj", "-xc -sd 1 s.obj"];
 const PLAIN: &[&str] = &["plain.ug", "-rays plain.ug", "-xc -sd 1 plain.ug", "-li plain.ug"];
 

@@ -84,8 +84,8 @@ fn files_that_a_mesh_names_are_limited() {
     let absolute = shell.path("out/huge").display().to_string();
     for (uri, options, status, message) in [
         // Only 36 bytes are read.
-        ("huge", "", 0, ""),
-        ("link/huge", "--allow-outside", 0, ""),
+        ("huge", "", 1, "the mesh has no faces with an area"),
+        ("link/huge", "--allow-outside", 1, "the mesh has no faces with an area"),
         ("endless", "--allow-outside", 1, "cannot read `endless`: It is not a regular file"),
         ("pipe", "", 1, "cannot read `pipe`: It is not a regular file"),
         ("../out/huge", "", 1, "cannot read `../out/huge`: It is outside the folder of the input"),
@@ -96,7 +96,7 @@ fn files_that_a_mesh_names_are_limited() {
             "cannot read `../out/huge`: It is outside the folder of the input",
         ),
         (&absolute, "", 1, "It is outside the folder of the input"),
-        (&absolute, "--allow-outside", 0, ""),
+        (&absolute, "--allow-outside", 1, "the mesh has no faces with an area"),
     ] {
         shell.write("in/a.gltf", gltf(uri));
         check(&shell, LITTLE, &format!("ugmesh in/a.gltf {options}"), status, message);

@@ -7,7 +7,6 @@ use ugphysics::{srgb_decode, srgb_encode};
 use ugscene::{TextureImage, shorten};
 
 use crate::builder::{Builder, Rgba};
-use crate::read::Input;
 
 /// Largest number of bytes of a picture file.
 pub(crate) const MAX_TEXTURE_BYTES: u64 = 1 << 28;
@@ -117,12 +116,12 @@ impl Textures {
 /// has: its alpha or, without any, its brightness. Pictures of different sizes are enlarged to the
 /// larger one.
 pub(crate) fn with_opacity(
-    input: &Input<'_>,
+    read_file: impl Fn(&str) -> Result<Vec<u8>, String>,
     colors: Option<&str>,
     opacity: &str,
 ) -> Result<Vec<u8>, String> {
     let read = |name: &str| {
-        let (bytes, _) = input.read_picture(name)?;
+        let bytes = read_file(name)?;
         let limits = PictureLimits::default();
         let picture = read_picture(&bytes, &limits).map_err(|error| error.to_string())?;
         // Numbers of light formats, unlike those of PNG, are not encoded.

@@ -56,7 +56,13 @@ pub(super) fn picture(input: &Input<'_>, row: usize) -> Result<Vec<u8>, Problem>
     let none = || Problem::new("it has no material with such a picture");
     let Material { texture, opacity, .. } = reader.materials.at(row).ok_or_else(none)?;
     let opacity = opacity.as_ref().ok_or_else(none)?;
-    with_opacity(input, texture.as_ref().map(|map| &*map.file), &opacity.file).map_err(Problem::new)
+    let colors = texture.as_ref().map(|map| &*map.file);
+    with_opacity(|name| bytes_of(input, name), colors, &opacity.file).map_err(Problem::new)
+}
+
+/// The bytes of a picture file.
+fn bytes_of(input: &Input<'_>, name: &str) -> Result<Vec<u8>, String> {
+    Ok(input.read_picture(name)?.0)
 }
 
 /// The lines with their numbers. A backslash at the end of a line continues it on the next.
@@ -338,7 +344,10 @@ impl<'a> Reader<'a> {
         let input = self.input;
         let base = texture.as_ref().filter(|_| plain.is_some()).map(|map| &*map.file);
         let key = format!("{} {}", base.unwrap_or_default(), opacity.file);
-        let load = || Ok((with_opacity(input, base, &opacity.file)?, TextureOrigin::Within(row)));
+        let load = || {
+            let both = with_opacity(|name| bytes_of(input, name), base, &opacity.file)?;
+            Ok((both, TextureOrigin::Within(row)))
+        };
         match self.textures.load(key.trim_start(), load) {
             Some(both) => (Some(both), AlphaMode::Blend),
             None => (plain, AlphaMode::Opaque),

@@ -37,7 +37,9 @@ impl Words for Error {
             Self::Empty(WithoutFaces { n_points: 0, .. }) => {
                 "{}; check that the program before in the pipe wrote one"
             }
-            Self::Empty(WithoutFaces { has_wires: true, .. }) => "{}; ugrainbow draws them",
+            Self::Empty(WithoutFaces { has_wires: true, .. }) => {
+                "{}; the programs of the pipe draw them"
+            }
             Self::Empty(_) => "{}; make a surface of a cloud of points first",
             Self::Text(_) | Self::Stopped(_) => "{}",
             Self::Camera(error) => return error.words(),

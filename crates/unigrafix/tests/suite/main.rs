@@ -214,7 +214,8 @@ fn a_mesh_is_read_and_filmed() {
 
     let frame = |time: f64| {
         let velocity = Some(DVec3::X * 0.5);
-        let motion = lorentz::Config { velocity, time, ..Default::default() };
+        let eye = Some(DVec3::new(0.5, -4.0, 0.5));
+        let motion = lorentz::Config { velocity, eye, time, ..Default::default() };
         let mut film = film::Pipe::new(vec![
             film::Program::Lorentz(motion),
             film::Program::Doppler(Default::default()),
@@ -223,7 +224,7 @@ fn a_mesh_is_read_and_filmed() {
         film.picture = picture::PictureOptions {
             size: [24, 18],
             camera: scene::CameraOptions {
-                eye: Some(DVec3::new(0.5, -4.0, 0.5)),
+                eye,
                 center: Some(DVec3::new(0.5, 0.0, 0.5)),
                 ..Default::default()
             },
