@@ -271,7 +271,7 @@ fn assumed_reflectances_are_named() {
         [("leaf", "", "foliage"), ("tin", "", ""), ("leaf", "no-doppler", "")]
     {
         let scene = format!(
-            "(ugstage 1 colors as-seen spectra lights {word})
+            "(ugstage 1 geometry as-seen eye 0 0 0 colors as-seen spectra lights {word})
             c_rgb leaf .28 .32 .15; c_refl tin 400 .5 700 .6; c_xyz seen .4 .4 .2;
             v a -5 10 -5 seen; v b 5 10 -5 seen; v c 5 10 5 seen; v d -5 10 5 seen;
             f (a b c d) {color} <0 -.257 0>; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 30;"

@@ -121,7 +121,7 @@ fn pictures_in_which_nothing_is_seen_say_why() {
             &[&format!("nothing is drawn: {note}")],
         );
     }
-    let clear = square.replace("c green 1 120;", "c green 1 120 1 1;");
+    let clear = square.replace("c green 1 120;", "c green 1 120 1 1;") + " green";
     let clear_note = "nothing is drawn: all faces are fully transparent; give their colours a translucency \
                       below 1";
     check(&format!("{clear}; cam -ep 1 0 20;"), &config, &[clear_note]);
