@@ -49,8 +49,10 @@ fn plain(shell: &Shell, statement: &str) {
 }
 
 fn stars(version: usize) -> String {
+    // Bright enough for any exposure, and hardly to be seen.
+    let magnitude = if version == 0 { -9 } else { 6 };
     let rows: String = (0..90).fold(String::new(), |mut rows, row| {
-        let _ = writeln!(rows, "{},{},{version},5000", 4 * row, row - 45);
+        let _ = writeln!(rows, "{},{},{magnitude},5000", 4 * row, row - 45);
         rows
     });
     format!("ra,dec,mag,kelvin\n{rows}")

@@ -220,7 +220,7 @@ fn check_info(info: &png::Info<'_>, n_file: usize) -> Result<(), ReadError> {
     // As stored: a pixel may have one bit.
     check_packed(n_file, info.raw_bytes() as u64, MOST_INFLATED)?;
     let n_palette = info.palette.as_ref().map_or(0, |palette| palette.len());
-    if n_palette % 3 != 0 || n_palette > 3 * 256 {
+    if !n_palette.is_multiple_of(3) || n_palette > 3 * 256 {
         // The decoder expects whole colours, as many as it has room for.
         let problem = format!("not a readable PNG file: {n_palette} bytes are no palette");
         return Err(ReadError::new(&problem));

@@ -16,7 +16,7 @@ pub(crate) fn read(
     limits: &PictureLimits,
     declared: &mut Declared,
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
-    let (size, factors, mut rest) = checked(file, limits, declared)?;
+    let Checked { size, factors, mut rest } = checked(file, limits, declared)?;
     let [width, height] = size.map(|side| side as usize);
     // A header that lies reserves as many pixels as the file has bytes. Runs may fill more.
     let n_pixels = width * height;
@@ -41,15 +41,23 @@ pub(crate) fn read(
 /// As [`read`], except for corrupt pixels.
 pub(crate) fn check(file: &[u8], limits: &PictureLimits) -> Result<[u32; 2], ReadError> {
     let mut declared = Declared { encoding: None, orientation: 1, xmp: None };
-    Ok(checked(file, limits, &mut declared)?.0)
+    Ok(checked(file, limits, &mut declared)?.size)
 }
 
-/// The size, the factors of the header, and the packed pixels.
+/// A file whose header has been read.
+struct Checked<'f> {
+    size: [u32; 2],
+    /// By which red, green and blue were multiplied.
+    factors: [f32; 3],
+    /// The packed pixels.
+    rest: &'f [u8],
+}
+
 fn checked<'f>(
     file: &'f [u8],
     limits: &PictureLimits,
     declared: &mut Declared,
-) -> Result<([u32; 2], [f32; 3], &'f [u8]), ReadError> {
+) -> Result<Checked<'f>, ReadError> {
     let mut rest = file;
     let ([width, height], factors) = header(&mut rest, declared)?;
     let size = limits.check([width, height], 16)?;
@@ -57,7 +65,7 @@ fn checked<'f>(
     if rest.len() as u64 / 4 < height as u64 {
         return Err(truncated());
     }
-    Ok((size, factors, rest))
+    Ok(Checked { size, factors, rest })
 }
 
 fn broken(what: &str) -> ReadError {

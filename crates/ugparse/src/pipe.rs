@@ -27,7 +27,7 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
         }
         limits = limits.with(limit, *value);
     }
-    Ok(Options { lax: common.lax, execute: common.allow_execute, limits, ..Options::default() })
+    Ok(Options { lax: common.lax, execute: common.allow_execute, limits })
 }
 
 /// Reads the input scene of a program, with all included files.

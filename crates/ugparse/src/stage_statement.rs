@@ -48,7 +48,7 @@ pub fn comes_through_a_pipe(text: &[u8]) -> bool {
     has_history
         && is_stage(&rest[..end])
         && read(rest, span).is_ok_and(|stage| {
-            stage != Stage { mixtures: stage.mixtures.clone(), ..Stage::default() }
+            stage != Stage { mixtures: stage.mixtures, ..Stage::default() }
         })
 }
 

@@ -132,7 +132,7 @@ fn notes_say_why_nothing_is_seen() {
     assert!(UGPHOTON.notes("-sz 32 24", far).contains("smaller than a sample"));
     let cloud = "v a 0 0 0; v b 1 0 0; v c 0 0 1;";
     UGPHOTON.refuses("", cloud, 1, "the scene has no faces and no wires, only 3 points");
-    UGPHOTON.refuses("", &format!("{cloud} w (a b);"), 1, "only wires, which rays do not meet");
+    UGPHOTON.refuses("", format!("{cloud} w (a b);"), 1, "only wires, which rays do not meet");
 }
 
 /// Skies that cannot be one, and options that contradict them.

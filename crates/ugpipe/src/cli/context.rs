@@ -66,6 +66,15 @@ fn first_bytes(file: &Input, limit: u64) -> Vec<u8> {
     file.text[..len].to_vec()
 }
 
+/// The files that were read beside the input.
+#[derive(Default)]
+struct Reads {
+    /// Of each, its name and hash.
+    records: Vec<String>,
+    /// The same with their paths.
+    seen: HashSet<(String, PathBuf)>,
+}
+
 /// The interface of a program to the system: its input, its output and its messages.
 ///
 /// A filter reads the whole input, computes, and then writes the whole output. If it fails, it has
@@ -87,7 +96,7 @@ pub struct Context {
     /// Files in memory that the input may name, see [`Context::beside`].
     beside: Vec<Input>,
     /// The records of the files that were read beside the input, and the same with their paths.
-    reads: Mutex<(Vec<String>, HashSet<(String, PathBuf)>)>,
+    reads: Mutex<Reads>,
 }
 
 impl Context {
@@ -206,7 +215,7 @@ impl Context {
     /// program, since the last call, for the record in the output: `SHA-256 3b1c… hull.png`. Where
     /// a file that an input names could not be read, the hash is `none`.
     pub fn take_files_read(&self) -> Vec<String> {
-        std::mem::take(&mut *self.reads.lock().unwrap_or_else(PoisonError::into_inner)).0
+        std::mem::take(&mut *self.reads.lock().unwrap_or_else(PoisonError::into_inner)).records
     }
 
     /// The same, with the input first.
@@ -230,8 +239,8 @@ impl Context {
         };
         let mut reads = self.reads.lock().unwrap_or_else(PoisonError::into_inner);
         // Each is told once, however often it is read.
-        if reads.1.insert((words.clone(), path.to_owned())) {
-            reads.0.push(words);
+        if reads.seen.insert((words.clone(), path.to_owned())) {
+            reads.records.push(words);
         }
     }
 

@@ -87,7 +87,7 @@ fn shapes_are_where_the_numbers_and_instances_put_them() {
     ] {
         let ring = rounds(&parse(text))[0];
         assert!((ring.inner - 0.25).abs() < 1e-15, "{text}: {}", ring.inner);
-        let read = parse(&flat(text));
+        let read = parse(flat(text));
         assert!((rounds(&read)[0].inner - 0.25).abs() < 1e-15, "{text}");
     }
     let text = "def d; disc plate 0 0 0 1 0 0 1; end; i (d -sy 0);";
