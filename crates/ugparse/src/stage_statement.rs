@@ -47,9 +47,8 @@ pub fn comes_through_a_pipe(text: &[u8]) -> bool {
     let span = Span { start: 0, end: u32::try_from(end).unwrap_or(0) };
     has_history
         && is_stage(&rest[..end])
-        && read(rest, span).is_ok_and(|stage| {
-            stage != Stage { mixtures: stage.mixtures, ..Stage::default() }
-        })
+        && read(rest, span)
+            .is_ok_and(|stage| stage != Stage { mixtures: stage.mixtures, ..Stage::default() })
 }
 
 /// Moves the stage statement of a document from its escapes to [`Document::stage`].

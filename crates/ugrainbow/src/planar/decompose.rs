@@ -147,7 +147,8 @@ mod tests {
         assert!(convex_parts(&crossed, &mut (taken - 1)).is_none());
         assert!(convex_parts(&crossed, &mut { taken }).is_some());
         // A comb does not cross itself.
-        let tooth = |at: usize| [at as f64, if at.is_multiple_of(2) { 0.0 } else { 50.0 + at as f64 }, 1.0];
+        let tooth =
+            |at: usize| [at as f64, if at.is_multiple_of(2) { 0.0 } else { 50.0 + at as f64 }, 1.0];
         let comb = [(0..400).map(tooth).chain([[399.0, -9.0, 1.0], [0.0, -9.0, 1.0]]).collect()];
         assert!(convex_parts(&comb, &mut 0).is_some());
     }
