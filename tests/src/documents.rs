@@ -192,7 +192,7 @@ const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 pub fn shrunk(command: &str) -> String {
     let coarse = coarse(command);
     let keeps_size =
-        coarse != command || ["-lg", "-cap", "-crop"].iter().any(|option| command.contains(option));
+        coarse != command || ["-lg", "-cap", "-crop", "-map"].iter().any(|option| command.contains(option));
     shortened(&if keeps_size { coarse } else { resized(&coarse, [640, 480], 0.125) })
 }
 
