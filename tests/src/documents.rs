@@ -191,8 +191,8 @@ const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 #[must_use]
 pub fn shrunk(command: &str) -> String {
     let coarse = coarse(command);
-    let keeps_size =
-        coarse != command || ["-lg", "-cap", "-crop", "-map"].iter().any(|option| command.contains(option));
+    let keeps_size = coarse != command
+        || ["-lg", "-cap", "-crop", "-map"].iter().any(|option| command.contains(option));
     shortened(&if keeps_size { coarse } else { resized(&coarse, [640, 480], 0.125) })
 }
 
