@@ -493,7 +493,8 @@ fn exposures_and_kept_frames_are_those_of_their_inputs() {
     assert!(shell.read("kept.gif") != shell.read("old.gif"));
 }
 
-/// A picture says what it was made of, in the words of `sha256sum`, and `--history` what has changed.
+/// A picture says what it was made of, in the words of `sha256sum`, and `--history` what has
+/// changed.
 #[test]
 fn pictures_record_every_file() {
     let shell = Shell::new(&[]);

@@ -25,7 +25,8 @@ fn in_every_shell(folder: &Path, script: &str, check: impl Fn(&str, Output)) {
     }
 }
 
-/// Every byte alone, between digits and between line ends, what shells treat specially, and random words.
+/// Every byte alone, between digits and between line ends, what shells treat specially, and random
+/// words.
 fn words() -> Vec<OsString> {
     let mut words: Vec<Vec<u8>> = (1..=255).map(|byte| vec![byte]).collect();
     words.push((1..=255).flat_map(|byte| [b'7', byte]).collect());

@@ -1,4 +1,5 @@
-//! Characters of code without blanks and comments, which no format changes, apart for programs and for
+//! Characters of code without blanks and comments, which no format changes, apart for programs and
+//! for
 //! tests.
 
 use std::collections::BTreeMap;
@@ -22,7 +23,8 @@ impl std::ops::AddAssign for Characters {
     }
 }
 
-/// The characters of a folder with a manifest. `files`: its sources, and their text; all of `tests/` and
+/// The characters of a folder with a manifest. `files`: its sources, and their text; all of
+/// `tests/` and
 /// `benches/` are tests, and examples are neither.
 pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Characters {
     let counted: Vec<(&PathBuf, Counted)> = (files.iter())

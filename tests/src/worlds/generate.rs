@@ -249,7 +249,8 @@ pub fn shape(random: &mut Random) -> Body {
     }
 }
 
-/// A sphere, a cylinder, or a disc with a hole or without, exactly round: ends of radii and points of rims.
+/// A sphere, a cylinder, or a disc with a hole or without, exactly round: ends of radii and points
+/// of rims.
 fn round(random: &mut Random) -> Body {
     let rim =
         |z: f64| [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|side| side + z * DVec3::Z);

@@ -67,7 +67,8 @@ fn read_binary(bytes: &[u8], merged: &mut MergedVertices) -> Result<(), Problem>
             "{declared} triangles are declared, and all {available} of the file are read"
         ));
     }
-    // Two conventions: colours by a word in the header, or by the highest bit of the last two bytes.
+    // Two conventions: colours by a word in the header, or by the highest bit of the last two
+    // bytes.
     let is_colored = |triangle: &[u8]| triangle[49] & 0x80 != 0;
     let has_word = header.windows(6).any(|window| window == b"COLOR=");
     if has_word || available > 0 && triangles.chunks_exact(50).all(is_colored) {

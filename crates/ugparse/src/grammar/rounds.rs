@@ -13,7 +13,8 @@ use crate::token::{Input, Parsed, Reason, blank, fail, point, require};
 
 impl<'t> Grammar<'t, '_> {
     /// `sphere [ID] x y z radius …`, `cylinder [ID] x y z x y z radius …` and `tube` alike,
-    /// `disc [ID] x y z nx ny nz radius [-inner radius] …`; or with contours in place of the numbers
+    /// `disc [ID] x y z nx ny nz radius [-inner radius] …`; or with contours in place of the
+    /// numbers
     pub(super) fn round(
         &mut self,
         mut shape: FaceShape,

@@ -243,7 +243,8 @@ fn assumed_reflectances_are_named() {
         *highest = high;
     }
     assert!(highest[0] < highest[2] && highest[2] < highest[1], "{highest:?}");
-    // Colours of vertices may be of any class; beyond infrared and ultraviolet nothing was measured.
+    // Colours of vertices may be of any class; beyond infrared and ultraviolet nothing was
+    // measured.
     let (assumed, text) = told("(e f g h)", fast);
     assert!(assumed["class"].is_null() && number(&assumed["delta_e"][1]) == highest[1], "{text}");
     assert!(text.contains("surfaces of any colour (P20)"), "{text}");

@@ -26,13 +26,15 @@ pub trait ToolArgs: clap::Parser {
 /// Ids of the options for files, messages and threads: those below, `files` for additional input
 /// files ([`crate::Context::input_file`]), `at` for a second output file
 /// ([`crate::Context::write_file`]), `pv` for previews in the place of the output
-/// ([`crate::Context::write_now`]), `dp` for the output ([`ToolArgs::default_output`]), and `cn`, which is accepted as in 1988. They do not affect the
+/// ([`crate::Context::write_now`]), `dp` for the output ([`ToolArgs::default_output`]), and `cn`,
+/// which is accepted as in 1988. They do not affect the
 /// content of the output, so the recorded command line omits them.
 pub(crate) const WITHOUT_EFFECT: [&str; 12] =
     ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at", "pv", "dp", "cn"];
 
 /// Names of the options, in any program, that write files: all but standard output. They are never
-/// recorded, so a record that has one was made by somebody else. `tests/history.rs` finds those that
+/// recorded, so a record that has one was made by somebody else. `tests/history.rs` finds those
+/// that
 /// are missing here.
 pub const WRITING: [&str; 12] = [
     "fo",

@@ -6,7 +6,8 @@ use ugpicture::DepthPoint;
 
 use super::convex::{Convex, clip, doubled_area, sides};
 
-/// Most parts, beyond those for each corner, of all faces whose edges cross each other: about 40 MB.
+/// Most parts, beyond those for each corner, of all faces whose edges cross each other: about 40
+/// MB.
 pub const MOST_CROSSED_PARTS: usize = 1 << 17;
 
 /// Clips a contour to the picture and a `margin` around it.
