@@ -53,8 +53,7 @@
 //! there deletes it. Other signals leave nothing.
 //!
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
-//! [`printable`], [`shell_word`] and the messages of [`remedies`] are compiled, and clap is not
-//! built.
+//! [`printable`], [`shell_word`] and the messages of [`remedies`] are compiled, and clap is not built.
 //!
 //! # Example
 //!
