@@ -77,6 +77,7 @@ pub fn include(
         tables: FxHashMap::default(),
         images: Images::new(),
         n_image_bytes: 0,
+        #[cfg(feature = "cli")]
         n_texel_bytes: 0,
         mesh_files: FxHashMap::default(),
         out: Vec::new(),
@@ -128,6 +129,7 @@ struct Text {
     /// Number of bytes copied or replaced so far.
     n_done: usize,
     /// It has a camera of its own.
+    #[cfg(feature = "cli")]
     has_camera: bool,
 }
 
@@ -135,10 +137,19 @@ impl Text {
     fn new(source: Source, options: &Options) -> Result<Self, Diagnostics> {
         let mut findings = Vec::new();
         let document = reader::read(&source.text, options, &mut findings);
+        #[cfg(feature = "cli")]
         let has_camera = document.scopes.iter().any(|scope| !scope.cameras.rows.is_empty());
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
-        Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0, has_camera })
+        Ok(Self {
+            source,
+            statements,
+            marks,
+            n_replaced: 0,
+            n_done: 0,
+            #[cfg(feature = "cli")]
+            has_camera,
+        })
     }
 }
 
@@ -155,6 +166,7 @@ struct Inclusion<'i> {
     images: Images,
     n_image_bytes: u64,
     /// Bytes of their pixels and mip levels, decoded.
+    #[cfg(feature = "cli")]
     n_texel_bytes: u64,
     /// Meshes that pictures are within.
     mesh_files: FxHashMap<PathBuf, Arc<[u8]>>,
