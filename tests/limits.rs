@@ -88,7 +88,7 @@ fn files_that_a_mesh_names_are_limited() {
         ("link/huge", "--allow-outside", 1, "the mesh has no faces with an area"),
         ("endless", "--allow-outside", 1, "cannot read `endless`: It is not a regular file"),
         ("pipe", "", 1, "cannot read `pipe`: It is not a regular file"),
-        // In the place of a file that is elsewhere, the one of its name beside the mesh is read.
+        // A file elsewhere is replaced by the file of the same name beside the mesh.
         ("../out/huge", "", 1, "the mesh has no faces with an area"),
         ("%2e%2e/out/huge", "", 1, "the mesh has no faces with an area"),
         (&absolute, "", 1, "the mesh has no faces with an area"),

@@ -1,6 +1,5 @@
-//! Characters of code without blanks and comments, which no format changes, apart for programs and
-//! for
-//! tests.
+//! Characters of code without blanks and comments, which no format changes, counted apart for
+//! programs and for tests.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

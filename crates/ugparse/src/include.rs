@@ -26,10 +26,9 @@ use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
 /// programs, the file name after `-path` by the events in that file, and that of a picture or sky
-/// by
-/// its path from the current folder; the bytes of pictures are kept for the scene. With the feature
-/// `cli` it reads a mesh of another format, with the files that it names, and included meshes
-/// become statements.
+/// by its path from the current folder; the bytes of pictures are kept for the scene. With the
+/// feature `cli` it reads a mesh of another format, with the files that it names, and included
+/// meshes become statements.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`],
 /// and not for a sky.

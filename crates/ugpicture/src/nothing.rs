@@ -7,7 +7,7 @@ use ugscene::{HalfSpace, Scene, VertexId, View};
 
 use crate::note::Note;
 
-/// What a scene has that no picture shows: it has no faces.
+/// The contents of a scene without faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WithoutFaces {
     /// Its vertices, such as those of a point cloud.
@@ -17,7 +17,7 @@ pub struct WithoutFaces {
 }
 
 impl WithoutFaces {
-    /// That of a scene without faces.
+    /// Counts the contents of a scene without faces.
     pub fn new(scene: &Scene) -> Self {
         Self { n_points: scene.vertices.len(), has_wires: !scene.wires.is_empty() }
     }
@@ -66,7 +66,7 @@ pub fn why_nothing_is_seen(scene: &Scene, view: Option<&View>, is_culled: bool) 
     }
 }
 
-/// True if every face is of a colour with translucency 1, and no mirror or solid.
+/// True if every face has a colour of translucency 1, without texture, mirror or medium.
 pub fn is_all_transparent(scene: &Scene) -> bool {
     let is_clear = |face: &ugscene::Face| {
         face.color.is_some_and(|color| {
@@ -78,7 +78,8 @@ pub fn is_all_transparent(scene: &Scene) -> bool {
 
 /// Passes on the corners of each contour of faces and wires, and of the boxes around round faces.
 fn for_each_outline(scene: &Scene, mut take: impl FnMut(Vec<DVec3>)) {
-    /// The corners of the sides of a box, by the bits of their numbers.
+    /// The corners of each side of a box: bit i of a corner's number selects the lower or
+    /// upper bound of coordinate i.
     const SIDES: [[usize; 4]; 6] =
         [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
     let position = |vertex: VertexId| scene.vertices[vertex.index()].position;

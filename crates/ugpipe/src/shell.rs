@@ -23,8 +23,7 @@ pub fn shell_os_word(word: &OsStr) -> String {
 
 /// The line by which a shell runs a pipe of commands, each a list of words, with its output in a
 /// file if one is given. It is as safe as a [`shell_word`], and keeps every byte: a line with a
-/// word
-/// that ends in a line end is the argument of `eval`.
+/// word that ends in a line end is the argument of `eval`.
 pub fn shell_pipe<W: AsRef<OsStr>>(commands: &[Vec<W>], output: Option<&OsStr>) -> String {
     let mut words = commands.iter().flatten().map(AsRef::as_ref).chain(output);
     if words.any(|word| word.as_encoded_bytes().ends_with(b"\n")) {

@@ -142,9 +142,9 @@ pub struct MotionArgs {
     ///
     /// What is ahead of a fast camera is seen small, because of aberration. With --ahead, the
     /// scene's camera or -ep, -vc, -ud and -va state the view of a camera at rest, which is
-    /// aberrated: at
-    /// 0.9c a view angle of 75 degrees becomes 17.8. A camera that looks more than 60 degrees away
-    /// from its motion turns to it. A scene without a camera is seen from behind along the motion.
+    /// aberrated: at 0.9c a view angle of 75 degrees becomes 17.8. A camera that looks more than
+    /// 60 degrees away from its motion turns to it. A scene without a camera is seen from behind
+    /// along the motion.
     #[arg(long = "ahead", conflicts_with = "og")]
     is_ahead: bool,
 }

@@ -296,7 +296,7 @@ impl Args {
         Ok(opened)
     }
 
-    /// Reads the scene of the camera.
+    /// Reads the scene that the camera is taken from.
     fn scene(&self, path: &Path, context: &Context) -> Result<Scene, Failure> {
         let options = pipe::options(&self.common)?;
         let Input { name, text } = context.input_file(path)?;

@@ -359,7 +359,7 @@ fn gltf(material: &str, root: &str, nodes: &str) -> String {
     )
 }
 
-/// The root with a picture whose sampler has these keys.
+/// A glTF root with one picture whose sampler has these keys.
 fn with_picture(sampler: &str) -> String {
     let picture = BASE64_STANDARD.encode(red_blue());
     format!(

@@ -11,8 +11,8 @@ const RADII: [f64; 3] = [30.0, 22.0, 24.0];
 /// The mean reflectances of canopies in the infrared bands.
 pub(crate) const LEVELS: [f64; N_LEVELS] = [0.43, 0.39, 0.17, 0.06];
 
-/// How much a surface with this linear red, green and blue counts as foliage, from 0 to 1: a smooth
-/// function of its colour.  Eq. (P20)
+/// The weight of the class foliage for a surface with this linear red, green and blue, from 0 to 1:
+/// a smooth function of its colour.  Eq. (P20)
 pub(crate) fn share(rgb: [f64; 3]) -> f64 {
     let [lightness, a, b] = lab(rgb);
     let outside = |at: f64, axis: usize| {

@@ -47,8 +47,7 @@ impl SmoothCurve {
     }
 
     /// What a surface reflects and a filter of its colour transmits, seen with a Doppler factor:
-    /// all
-    /// of it if the spectrum is not that of a surface.
+    /// all of it if the spectrum is not that of a surface.
     pub fn of(spectrum: &Spectrum, doppler: f64) -> Self {
         let nm = |row: usize| (FIRST_NM + row) as f64 * doppler;
         match &spectrum.0 {

@@ -64,8 +64,7 @@ fn nested_frames_are_products_of_matrices() {
             let pairs = entries(nested.axes()).into_iter().zip(entries(axes));
             let worst = pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
             // Velocities in texts are rounded to 17 digits; each boost magnifies that by its γ,
-            // there
-            // and back.
+            // there and back.
             assert!(worst < 1e-14 * gamma * gamma, "{first} {next}: {worst:e}, γ {gamma}");
             let got = nested.start();
             let off = (got.x - start.x).length() + (got.t - start.t).abs();

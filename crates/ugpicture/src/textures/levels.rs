@@ -355,7 +355,7 @@ mod tests {
         ] {
             assert_eq!(sample(place, 0.001, wrap), expected, "{place} {wrap:?}");
         }
-        // Of a sample across an edge each side counts with its part.
+        // A footprint across an edge is the mean of both sides, weighted by their parts of it.
         assert_eq!(sample(0.5, 0.2, Wrap::Clamp), 1.5);
         assert!((sample(0.3, 40.0, Wrap::Repeat) - 1.5).abs() < 1e-6);
         assert!(sample(f64::NAN, 0.0, Wrap::Repeat).is_finite());

@@ -34,8 +34,7 @@ pub(crate) const WITHOUT_EFFECT: [&str; 12] =
 
 /// Names of the options, in any program, that write files: all but standard output. They are never
 /// recorded, so a record that has one was made by somebody else. `tests/history.rs` finds those
-/// that
-/// are missing here.
+/// that are missing here.
 pub const WRITING: [&str; 12] = [
     "fo",
     "output",

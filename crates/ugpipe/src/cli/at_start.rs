@@ -1,9 +1,8 @@
 //! The standard streams that were closed when the program was started.
 //!
 //! Before `main`, the runtime of Rust opens `/dev/null` in place of closed streams, so that no
-//! other
-//! file gets their numbers. From then on a closed output looks like one that nobody wants. So they
-//! are examined earlier, where C programs run their constructors.
+//! other file gets their numbers. From then on a closed output cannot be told from one that nobody
+//! wants. So they are examined earlier, where C programs run their constructors.
 
 use std::io;
 use std::os::fd::AsFd;

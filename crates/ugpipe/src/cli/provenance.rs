@@ -62,7 +62,7 @@ pub(crate) fn recorded_name(path: Option<&Path>) -> String {
     let is_below = |path: &Path| {
         path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
     };
-    // Without `.`, which programs downstream leave out as well.
+    // `./a.ug` is recorded as `a.ug`, as programs downstream do.
     let plain: Option<PathBuf> = path.map(|path| {
         path.components().filter(|component| *component != Component::CurDir).collect()
     });

@@ -48,7 +48,7 @@ fn a_wire_on_a_slanting_edge_has_its_full_width() {
     }
 }
 
-/// The corners of a unit cube, by the bits of their numbers.
+/// A unit cube: bit i of a corner's number is its coordinate i.
 fn cube() -> String {
     let mut text = "l 1; c white 1;".to_owned();
     for k in 0..8 {

@@ -300,7 +300,7 @@ fn angles_may_be_sexagesimal() {
     refused("1,5h0m0s", "`5h0m0s` is not a number");
     refused("1,5 -1 0", "`5 -1 0` is not a number");
     refused("25 0 0,1", "`25 0 0` is out of range");
-    // Right ascensions of the first hours are not taken for hours again.
+    // `hh mm ss` with hours below 1 gets no note that the column may be in hours.
     let list = b"ra,dec,mag,kelvin\n0 10 0,1,1,5000\n0 20 0,1,1,5000\n";
     assert_eq!(read_stars("t.csv", list).unwrap().notes, [""; 0]);
 }
