@@ -22,8 +22,9 @@ WALLS = {
 }
 SHADES = (0.82, 0.92, 1.0, 1.06, 1.12)
 MORTAR, FRAME, STONE, SHADE = (184, 178, 166), (236, 234, 226), (206, 200, 184), (122, 116, 104)
-# From the sky's reflection above to the dark room below.
-GLASS = [(94 - 3 * row, 124 - 4 * row, 158 - 5 * row) for row in range(16)]
+# From the sky's reflection above to the dark room below; nearly grey, since a blue paint would turn
+# green or red in motion, and the light of the sky does not.
+GLASS = [(98 - 4 * row, 106 - 4 * row, 116 - 4 * row) for row in range(16)]
 
 
 def random(seed):
