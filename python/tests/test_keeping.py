@@ -113,8 +113,8 @@ def test_examples(shell, tmp_path):
         assert len(scene.faces) > 0 and not any(note.startswith("error") for note in scene.notes), name
     assert {path.name for path in root.glob("*.ug")} == {f"{name}.ug" for name in names if "." not in name}
     for name in ("ship.ug", "town.ug", "crate.gltf"):
-        expected = shell(f"cd scenes && uglorentz -vel 0.5 0 0 -in {name} | ugdoppler | ugrainbow -sz 60 45")
-        seen = ug.Scene.example(name).lorentz(velocity=(0.5, 0, 0), keep_in_view=True).doppler()
+        expected = shell(f"cd scenes && uglorentz -vel 0.5 0 0 -in {name} | ugdoppler -sp | ugrainbow -sz 60 45")
+        seen = ug.Scene.example(name).lorentz(velocity=(0.5, 0, 0), keep_in_view=True).doppler(spectral=True)
         assert seen.render(**SMALL).to_bytes() == expected
     film = "-frames 2 -vel 0 0 0..0.5 -sz 60 45"
     expected = shell(f"cd scenes && ugfilm {film} -fo {tmp_path}/a.gif town.ug; cat {tmp_path}/a.gif")

@@ -62,11 +62,11 @@ def test_round_faces(shell, shape, tmp_path):
     moving = {"velocity": (0.5, 0.3, 0), "keep_in_view": True}
     moved = f"uglorentz -vel 0.5 0.3 0 -in {file}"
     small, lorentz = {"size": (60, 45)}, scene.lorentz(**moving)
-    exact = scene.lorentz(sd=1, **moving)
+    exact = scene.lorentz(**moving, sd=1)
     assert lorentz.doppler().render(**small).to_bytes() == shell(f"{moved} | ugdoppler | ugrainbow -sz 60 45")
     assert exact.render(xc=True, **small).to_bytes() == shell(f"{moved} -sd 1 | ugrainbow -xc -sz 60 45")
     assert exact.doppler().render(**small).to_bytes() == shell(f"{moved} -sd 1 | ugdoppler | ugrainbow -sz 60 45")
-    options = f"-vel 0.5 0.3 0 -in -ex 0 -aa 1 -sz 60 45 {file}"
+    options = f"-ex 0 -aa 1 -vel 0.5 0.3 0 -in -sz 60 45 {file}"
     photon = scene.photon(exposure=0, samples=1, **moving, **small).to_bytes()
     assert photon == shell(f"ugphoton {options}")
     assert len(scene.vertices) > 8 and len(scene.vertices) == len(scene.names)

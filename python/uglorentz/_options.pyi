@@ -200,6 +200,8 @@ class Render(TypedDict, total=False):
     """FMT. Format of the picture [default: by the ending of output, else png]"""
     dt: Text | None
     """The same as format."""
+    dp: bool | None
+    """True. Write PostScript to the file POSTSCRIPTFILE, or to that of output, as in 1988"""
     vector: bool | None
     """True. Vector graphics instead of pixels, for eps, ps, pdf, svg"""
     vec: bool | None
