@@ -13,9 +13,9 @@ use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 /// basis is an assumption about both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Basis {
-    /// Daylight on a mixture of white, a pair of primaries and a primary, each with the reflectance
-    /// of (P20) (Smits 1999). Colours that differ little have spectra that differ little, in the
-    /// infrared as well.
+    /// Daylight on a mixture of white, pairs of primaries and primaries, mixed with white to a few
+    /// saturations, each with the reflectance of (P20) (after Smits 1999). Colours that differ little
+    /// have spectra that differ little, in the infrared as well.
     Mixture,
     /// Sums of black bodies at three temperatures, in kelvins (Weiskopf 2000). Saturated colours
     /// need negative amounts of some.
@@ -72,16 +72,24 @@ pub struct SpectralTable {
 enum Kind {
     /// Matrices from linear red, green and blue at rest to those seen, by ln D.
     Linear { first: f64, maps: Vec<[[f32; 3]; 3]> },
-    /// The light seen of [`PURE`], by ln D: computed by `colors` when it is first read, as a view
-    /// shows few of all Doppler factors.
-    Mixture { first: f64, lights: Vec<OnceLock<[[f32; 3]; N_PURE]>>, colors: Box<PureColors> },
+    /// The light seen of the spectra of a mixture, by ln D: computed by `colors` when it is first
+    /// read, as a view shows few of all Doppler factors.
+    Mixture { first: f64, lights: Vec<OnceLock<[[f32; 3]; N_MIXED]>>, colors: Box<MixedColors> },
 }
 
-/// The linear red, green and blue of [`PURE`] by ln D, without D⁵.
-type PureColors = dyn Fn(f64) -> [[f64; 3]; N_PURE] + Send + Sync;
+/// The linear red, green and blue of the spectra of a mixture by ln D, without D⁵.
+type MixedColors = dyn Fn(f64) -> [[f64; 3]; N_MIXED] + Send + Sync;
 
-/// Number of spectra of [`Basis::Mixture`].
+/// Number of [`pure_lights`].
 pub const N_PURE: usize = 7;
+
+/// Saturations at which [`Basis::Mixture`] has spectra, evenly spaced up to 1. The spectrum of a
+/// pale colour is smooth, that of a primary goes to 0 steeply: mixed from white and primaries alone,
+/// a pale blue sky would be green at D = 1.3.
+const N_LEVELS: usize = 3;
+
+/// Number of spectra of [`Basis::Mixture`]: white, and the others of [`PURE`] at each saturation.
+const N_MIXED: usize = 1 + N_LEVELS * (N_PURE - 1);
 
 /// White, the primaries, and the pairs that lack one of them.
 const PURE: [[f64; 3]; N_PURE] = [
@@ -249,20 +257,49 @@ pub fn pure_lights(saturation: f64) -> [Spectrum; N_PURE] {
 }
 
 fn mixture(reach: f64, range: &Range<f64>) -> Kind {
-    let colors = Box::new(colors_of(pure_lights(1.0), range.clone()));
+    let levels: [_; N_LEVELS] =
+        std::array::from_fn(|level| pure_lights((level + 1) as f64 / N_LEVELS as f64));
+    let spectra: [Spectrum; N_MIXED] = std::array::from_fn(|row| match row {
+        0 => levels[0][0].clone(),
+        _ => levels[(row - 1) / (N_PURE - 1)][1 + (row - 1) % (N_PURE - 1)].clone(),
+    });
+    let colors = Box::new(colors_of(spectra, range.clone()));
     let (first, n) = range_of(reach, STEP);
     Kind::Mixture { first, lights: std::iter::repeat_with(OnceLock::new).take(n).collect(), colors }
 }
 
 /// The light of a mixture between two entries of the table.
-fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_PURE]; 2], part: f32) -> [f32; 3] {
-    let amounts = amounts(rgb);
+fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_MIXED]; 2], part: f32) -> [f32; 3] {
+    let mixed = mixed(rgb);
     std::array::from_fn(|c| {
-        amounts
+        mixed
             .iter()
-            .map(|&(pure, amount)| amount * (low[pure][c] + part * (high[pure][c] - low[pure][c])))
+            .map(|&(row, amount)| amount * (low[row][c] + part * (high[row][c] - low[row][c])))
             .sum()
     })
+}
+
+/// The spectra of [`Basis::Mixture`] in a colour with their amounts: a pair and its brighter
+/// primary, at the saturations below and above that of the colour.
+fn mixed(rgb: [f32; 3]) -> [(usize, f32); 4] {
+    let [(_, white), (pair, of_pair), (one, of_one)] = amounts(rgb);
+    let chroma = of_pair + of_one;
+    if chroma <= 0.0 {
+        return [(0, white), (0, 0.0), (0, 0.0), (0, 0.0)];
+    }
+    let most = white + chroma;
+    let at = N_LEVELS as f32 * chroma / most;
+    let level = (at as usize).min(N_LEVELS - 1);
+    let above = most * (at - level as f32);
+    let below = most - above;
+    let share = of_pair / chroma;
+    let row = |level: usize, pure| if level == 0 { 0 } else { (level - 1) * (N_PURE - 1) + pure };
+    [
+        (row(level, pair), below * share),
+        (row(level, one), below * (1.0 - share)),
+        (row(level + 1, pair), above * share),
+        (row(level + 1, one), above * (1.0 - share)),
+    ]
 }
 
 /// The [`pure_lights`] in a colour with their amounts: as much white as all channels have, as much

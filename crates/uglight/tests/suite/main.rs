@@ -132,13 +132,14 @@ fn scene(text: &str) -> Scene {
 /// are relative to the eye.
 #[test]
 fn lamps_are_those_of_the_scene() {
-    let scene = scene("c red 1 0 1; l 0.25; l 0.5 0 0 2 red; v p 1 2 3; l 0.75 p;");
+    let scene = scene("c red 1 0 1; l 0.25; l 0.5 0 0 2 red; l 0.75 1 2 3 0.5;");
     let eye = DVec3::new(1.0, 1.0, 1.0);
     let lamps = Lamps::new(&scene, eye, false);
     assert_eq!(lamps.len(), 3);
     assert_eq!([0, 1, 2].map(|row| lamps[row].intensity), [0.25, 0.5, 0.75]);
     assert_eq!(lamps[0].place, LampPlace::Everywhere);
     assert_eq!(lamps[1].place, LampPlace::Afar(DVec3::Z));
+    assert_eq!(lamps[2].place, LampPlace::At(DVec3::new(0.0, 1.0, 2.0)));
     assert_eq!(lamps[1].color, DVec3::X * 0.5);
     assert!(lamps[1].is_colored && !lamps[0].is_colored);
     // The sum of two sets of lamps is both.

@@ -1,6 +1,7 @@
 //! Light by an assumption about its spectrum.
 
-use ugphysics::{luminance, xyz_to_linear_srgb};
+use ugphysics::spectrum::{InfraredRule, Spectrum};
+use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 use ugsky::{ALL_NM, Basis, SpectralTable, pure_lights};
 
 const TEMPERATURES: [f64; 3] = [3500.0, 5900.0, 10_000.0];
@@ -35,6 +36,30 @@ fn mixtures_are_of_smooth_curves() {
             let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
             let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
             assert!(error < 2e-3, "{pure:?} {doppler}: {seen:?} {exact:?}");
+        }
+    }
+}
+
+/// The mixture for a colour is nearly the curve of that colour: a blue sky stays blue ahead, where a
+/// mixture of white and primaries alone was green.
+#[test]
+fn mixtures_are_nearly_the_curve_of_the_colour() {
+    let table = SpectralTable::new(Basis::Mixture, true, true, 1.0, ALL_NM).unwrap();
+    // A clear sky, its horizon, the sky around a low sun, and pale colours of all hues.
+    let skies = [[0.36_f32, 0.5, 1.0], [0.61, 0.69, 1.0], [1.0, 0.76, 0.57], [1.0, 0.6, 0.3]];
+    let hues = (0..12).map(|step| {
+        let hue = |shift: f32| (0.5 * step as f32 - shift).rem_euclid(6.0);
+        [0.0, 2.0, 4.0].map(|shift| 0.5 + 0.5 * ((hue(shift) - 3.0).abs() - 1.0).clamp(0.0, 1.0))
+    });
+    for rgb in skies.into_iter().chain(hues) {
+        let xyz = linear_srgb_to_xyz(rgb.map(f64::from));
+        let (spectrum, _) = Spectrum::with_infrared(xyz, InfraredRule::Constant);
+        for doppler in [0.7, 0.8, 0.9, 1.1, 1.2, 1.3, 1.5, 2.0] {
+            let seen = table.seen(rgb, doppler).map(f64::from);
+            let exact = xyz_to_linear_srgb(spectrum.seen(doppler));
+            let size = exact.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+            let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
+            assert!(error < 0.1, "{rgb:?} {doppler}: {seen:?} {exact:?}");
         }
     }
 }
