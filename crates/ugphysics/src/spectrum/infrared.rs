@@ -59,10 +59,14 @@ const WHITE: [f64; N_LEVELS] = [0.005, 0.175, 0.175, 0.175];
 /// Keeps the infrared of dark surfaces in proportion to their colour.
 const SOFT: f64 = 0.03;
 
+/// A Σ below 0, that of colours without green, is held above −1 over this. Without it, purples that
+/// are alike at rest would differ in infrared.
+const LEAST: f64 = 9.0;
+
 /// The reflectances at the wavelengths of the levels of a surface with this linear red, green and
 /// blue, m the largest: m ((m + e)/(1 + e))^(p − 1) with p = 2^(−Σ k (m − c)/(m + w)), and as far
-/// as the colour is that of [foliage], what foliage reflects. Greys stay grey, white stays white,
-/// and no level is above 1, or m if this is more.
+/// as the colour is that of [foliage], what foliage reflects. A Σ below 0 is held near 0. Greys
+/// stay grey, white stays white, and no level is above 1, or m if this is more.
 pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
     let largest = rgb[0].max(rgb[1]).max(rgb[2]);
     if !(largest > 0.0 && largest < 1.0) {
@@ -72,6 +76,7 @@ pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
     std::array::from_fn(|i| {
         let lacks = rgb.map(|channel| (largest - channel.max(0.0)) / (largest + WHITE[i]));
         let sum: f64 = FIT[i].iter().zip(lacks).map(|(k, lack)| k * lack).sum();
+        let sum = if sum < 0.0 { sum / (1.0 + LEAST * LEAST * sum * sum).sqrt() } else { sum };
         let exponent = libm::exp2(-sum);
         let level = largest * libm::pow((largest + SOFT) / (1.0 + SOFT), exponent - 1.0);
         level + share * (foliage::LEVELS[i] - level)

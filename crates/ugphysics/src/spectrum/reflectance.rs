@@ -64,13 +64,14 @@ impl Reflectance {
             return None;
         }
         let parts = levels.map(|level| level / largest);
-        let foliage = match rule {
-            InfraredRule::Measured => foliage::share(rgb),
-            InfraredRule::Constant => 0.0,
+        // A curve that ends at the red channel has no rise towards infrared.
+        let (visible, foliage) = match rule {
+            InfraredRule::Measured => (1.0, foliage::share(rgb)),
+            InfraredRule::Constant => (parts[0], 0.0),
         };
         LEAST_BOUND.into_iter().find_map(|least| {
             let most = (1.0 / largest).clamp(least, LARGEST_BOUND);
-            let start = Curve::between(1.0, parts[0], foliage, most);
+            let start = Curve::between(visible, parts[0], foliage, most);
             let curve = solve(rgb.map(|channel| channel / largest), start, parts)?;
             Some(Self { factor: largest, curve: Some(curve), values: None, levels })
         })

@@ -125,8 +125,8 @@ fn neighbours_stay_neighbours() {
         }
         far += usize::from(most > 6.0);
     }
-    // Most of these few are dark and saturated.
-    assert!(far < count / 40, "{far} of {count}: {worst:?}");
+    // Most of these few are saturated blues, or at the edge of foliage.
+    assert!(far < count / 100, "{far} of {count}: {worst:?}");
     let most = worst.into_iter().fold(0.0, f64::max);
-    assert!(most < 14.0, "{worst:?}");
+    assert!(most < 12.5, "{worst:?}");
 }
