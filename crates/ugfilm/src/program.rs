@@ -88,9 +88,9 @@ impl Program {
     pub fn panorama(&self, picture: &PictureOptions) -> Option<PanoramaArea> {
         match self {
             Self::Photon(config) => {
-                config.lens.panorama(picture, config.stereo.is_some(), config.crop)
+                picture.panorama_area(config.lens, config.stereo.is_some(), config.crop)
             }
-            Self::Warp(config) => config.lens.panorama(picture, false, None),
+            Self::Warp(config) => picture.panorama_area(config.lens, false, None),
             Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => None,
         }
     }

@@ -2,11 +2,11 @@
 //! drawn, and a camera that follows.
 
 use ugimage::Format;
-use ugpicture::lens::Lens;
 use ugpipe::Failure;
 use ugscene::{
     BodyBoxes, CameraOptions, MotionError, MotionOptions, Scene, SeenBoxes, TimesInView,
 };
+use ugtrace::lens::Lens;
 
 use crate::pipe::Pipe;
 use crate::program::Program;

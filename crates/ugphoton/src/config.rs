@@ -86,7 +86,7 @@ impl Config {
 
     /// The panorama that the picture is or belongs to, for viewers of 360° pictures.
     pub fn panorama(&self) -> Option<PanoramaArea> {
-        self.lens.panorama(&self.picture, self.stereo.is_some(), self.crop)
+        self.picture.panorama_area(self.lens, self.stereo.is_some(), self.crop)
     }
 
     /// The same with the options of the part of the picture that shows the scene.

@@ -7,7 +7,7 @@ use ugphysics::Event;
 use ugscene::Scene;
 
 use crate::media::{Media, Solid};
-use ugpicture::rays::{Faces, Intersection, PastRay, World};
+use ugtrace::rays::{Faces, Intersection, PastRay, World};
 
 /// Rays from a point inside a closed surface leave it once more than they enter it, in every
 /// direction. Surfaces that are not closed, such as a single pane, are told apart by the

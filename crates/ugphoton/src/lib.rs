@@ -15,7 +15,7 @@
 //!
 //! # Modules
 //!
-//! What rays meet is found by [`ugpicture::outlines`] and [`ugpicture::rays`], with places, normals
+//! What rays meet is found by [`ugtrace::outlines`] and [`ugtrace::rays`], with places, normals
 //! and colours. Each line imports
 //! only from the lines above it:
 //!
@@ -78,11 +78,11 @@ pub use explain::explain;
 pub use render::{PROVENANCE, PreparedScene, light, render, render_with, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
-use ugpicture::lens;
-pub use ugpicture::lens::Lens;
 pub use ugpicture::{
     Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering,
     Tone, metadata,
 };
 pub use ugscene::{Anchor, CameraOptions, HueScale, MotionOptions, Provenance};
 pub use ugskybox::{SceneSky, SkySource};
+use ugtrace::lens;
+pub use ugtrace::lens::Lens;

@@ -1,6 +1,6 @@
 //! How large a sample is on the surfaces that its ray meets.
 
-use ugpicture::rays::PastRay;
+use ugtrace::rays::PastRay;
 
 use crate::scenery::Scenery;
 

@@ -2,9 +2,9 @@
 
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace, light_names};
 use ugphysics::Event;
-use ugpicture::lens::Lens;
 use ugpicture::{Note, is_all_transparent, why_nothing_is_seen};
 use ugscene::{Face, SurfaceProperties};
+use ugtrace::lens::Lens;
 
 use crate::config::Config;
 use crate::immersion::is_enclosed;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use crate::immersion::transparent_solid;
-use ugpicture::rays::{Faces, World};
+use ugtrace::rays::{Faces, World};
 
 /// How far from the middle of an edge the way around it leads, relative to the length of the edge.
 const BESIDE: f64 = 1e-3;

@@ -6,7 +6,7 @@ use ugpicture::{Emission, MediumLight, SeenItem};
 use ugscene::BodyId;
 
 use crate::scenery::Scenery;
-use ugpicture::rays::{PastRay, along};
+use ugtrace::rays::{PastRay, along};
 
 /// The surfaces at the centres of the pixels of a part of a picture.
 pub struct PixelCenters<'a> {

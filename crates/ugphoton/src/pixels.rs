@@ -5,10 +5,10 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Filter, LinearFrame};
-use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugpicture::{Backdrop, PictureOptions, push_channels};
 use ugpipe::Progress;
 use ugskybox::drawn_on;
+use ugtrace::outlines::{NearestFaces, Outlines, Tiles};
 
 use crate::config::Config;
 use crate::lens::frame_around;
@@ -16,7 +16,7 @@ use crate::neighbours::PictureSample;
 use crate::pixel_centers::PixelCenters;
 use crate::scenery::Scenery;
 use crate::tracer::{Arriving, Tracer, Visit};
-use ugpicture::rays::{Intersection, PacketMemory, PastRay};
+use ugtrace::rays::{Intersection, PacketMemory, PastRay};
 
 /// Pixels along a side of a tile, which one task computes.
 const TILE: u32 = 16;

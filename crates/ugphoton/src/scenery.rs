@@ -6,12 +6,13 @@ use std::ops::Range;
 use glam::DVec3;
 use uglight::{Appearance, ColorShift, FaceColors, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
-use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
-use ugpicture::{PictureOptions, Surfaces};
+use ugpicture::PictureOptions;
 use ugscene::{
     BodyId, Face, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
 };
 use ugskybox::{SkyAround, SkyLamps};
+use ugtrace::Surfaces;
+use ugtrace::outlines::{NearestFaces, Outlines, Tiles};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -19,8 +20,8 @@ use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
 use crate::media::{Media, Solid};
 use ugpicture::WithoutFaces;
-use ugpicture::rays::{Faces, Intersection, PacketMemory, PastRay, World};
-use ugpicture::textures::Textures;
+use ugtrace::rays::{Faces, Intersection, PacketMemory, PastRay, World};
+use ugtrace::textures::Textures;
 
 /// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
 /// reflections by mirrors that approach each other.

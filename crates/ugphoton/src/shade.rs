@@ -10,8 +10,8 @@ use crate::immersion::Crossing;
 use crate::media::{Media, Solid};
 use crate::sampling::{disk_point, square_point};
 use crate::scenery::Scenery;
-use ugpicture::SurfacePoint;
-use ugpicture::rays::{Corridor, Intersection, PastRay, Start};
+use ugtrace::SurfacePoint;
+use ugtrace::rays::{Corridor, Intersection, PastRay, Start};
 
 /// Shades points of surfaces; it owns the memory it needs for that.
 pub struct Shader<'a> {

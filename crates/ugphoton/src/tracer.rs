@@ -9,9 +9,9 @@ use crate::media::{Media, Solid};
 use crate::neighbours::{Neighbours, PictureSample};
 use crate::scenery::Scenery;
 use crate::shade::{LampLight, Shader, absorption};
-use ugpicture::rays::{Intersection, PastRay, Start};
-use ugpicture::{SurfacePoint, Surfaces};
 use ugskybox::{SkyAround, SkyRays};
+use ugtrace::rays::{Intersection, PastRay, Start};
+use ugtrace::{SurfacePoint, Surfaces};
 
 /// Light that arrives along a ray.
 #[derive(Clone, Copy, Debug)]

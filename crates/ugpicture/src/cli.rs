@@ -22,12 +22,12 @@ use crate::background::Background;
 use crate::channel::Channel;
 use crate::explain::{Explanation, WriteSample};
 use crate::exposure::Exposure;
-use crate::lens::Lens;
 use crate::options::{AnnotationOptions, PictureOptions, Place};
 use crate::output::Output;
 use crate::picture_file::PictureFile;
 use crate::quantity::{IsoOptions, MapOptions, Quantity};
 use crate::units::Units;
+use ugtrace::lens::Lens;
 
 /// Heading of the options of a picture in `--help`.
 pub const PICTURE: &str = "Picture";

@@ -35,7 +35,7 @@ pub enum Error {
     Empty(WithoutFaces),
     /// A texture cannot be read.
     #[error(transparent)]
-    Texture(#[from] crate::textures::TextureError),
+    Texture(#[from] ugtrace::textures::TextureError),
     /// A file to be packed is no PNG file.
     #[error("only PNG files are packed smaller")]
     NotPng,

@@ -5,7 +5,6 @@
 //!
 //! - [`PictureOptions`]: camera, size, samples and filter, background, exposure, tone curve,
 //!   format, and annotations; [`cli`] has them as options of the command line;
-//! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
 //! - [`Exposure`]: how light is brought into the range of a display; [`levels_note`]: whether a
 //!   picture is nearly black or overexposed;
@@ -52,7 +51,6 @@ mod error;
 pub mod explain;
 mod exposure;
 mod image;
-pub mod lens;
 mod levels;
 mod limits;
 mod line;
@@ -60,16 +58,12 @@ mod metadata;
 mod note;
 mod nothing;
 mod options;
-pub mod outlines;
 mod output;
 mod picture_file;
 mod quantity;
-pub mod rays;
 mod rendering;
 mod shared_edges;
 mod spots;
-mod surface_point;
-pub mod textures;
 mod units;
 
 pub use annotations::{Annotated, FindItems, FoundItems, Layout, Scale, Subject, VisibleWires};
@@ -92,7 +86,6 @@ pub use quantity::{IsoOptions, MapOptions, Quantity};
 pub use rendering::{Rendering, VectorFigure};
 pub use shared_edges::{FaceEdge, Fold, shared_edges};
 pub use spots::spots;
-pub use surface_point::{SurfacePoint, Surfaces, WorldLineElement};
 pub use ugimage::label::TextForm;
 pub use ugimage::{Filter, Tone};
 pub use units::{Unit, Units};

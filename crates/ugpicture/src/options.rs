@@ -4,9 +4,12 @@ use std::borrow::Borrow;
 use std::sync::Arc;
 
 use ugimage::label::TextForm;
-use ugimage::{Compression, Development, Filter, Format, LinearFrame, Tone, auto_exposure};
+use ugimage::{
+    Compression, Development, Filter, Format, LinearFrame, PanoramaArea, Tone, auto_exposure,
+};
 use ugphysics::Hsv;
 use ugscene::CameraOptions;
+use ugtrace::lens::Lens;
 
 use crate::background::Background;
 use crate::channel::Channel;
@@ -92,6 +95,24 @@ impl PictureOptions {
             Some(Exposure::Auto) => auto_exposure(frame().borrow(), tone),
         };
         Development { stops, tone }
+    }
+
+    /// What viewers of 360° pictures are told about a picture by this lens: `None` unless it is an
+    /// equirectangular panorama, twice as wide as high, for one eye and without annotations.
+    ///
+    /// `crop`: left column, upper row, width and height of the part that is drawn.
+    #[must_use]
+    pub fn panorama_area(
+        &self,
+        lens: Lens,
+        is_stereo: bool,
+        crop: Option<[u32; 4]>,
+    ) -> Option<PanoramaArea> {
+        let [width, height] = self.size;
+        let is_whole = lens == Lens::Panorama && !is_stereo && !self.annotations.is_any();
+        let [left, top, ..] = crop.unwrap_or_default();
+        (is_whole && u64::from(width) == 2 * u64::from(height))
+            .then_some(PanoramaArea { whole: self.size, corner: [left, top] })
     }
 
     /// How hard a PNG file is compressed.

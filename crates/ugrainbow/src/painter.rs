@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use uglight::{Appearance, ColorForm, FaceColors, Lighting, Mixing, Swatch};
-use ugpicture::textures::Textures;
 use ugraster::{Corner, SampleGrid, ScreenPoint};
 use ugscene::{CameraPoint, ColorId, Face, Scene, Slab, VertexId, View, Wire, unit_normal};
+use ugtrace::textures::Textures;
 
 use crate::clip::Vertex;
 use crate::packing::Layout;

@@ -4,12 +4,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
-use ugpicture::lens::Lens;
 use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample};
 use ugpipe::Progress;
 use ugraster::{Center, Encoding, Keep, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 use ugscene::View;
 use ugskybox::{SkyCamera, drawn_on};
+use ugtrace::lens::Lens;
 
 use crate::center_surface::center_surface;
 use crate::config::Config;

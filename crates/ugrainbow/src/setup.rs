@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 
 use uglight::{Appearance, ColorShift, Lighting};
-use ugpicture::textures::Textures;
 use ugpicture::{Background, Output, PictureOptions, WithoutFaces, refuse};
 use ugraster::{SampleGrid, TileShape};
 use ugscene::{Scene, ShownEffects, View};
 use ugskybox::SkyError;
+use ugtrace::textures::Textures;
 
 use crate::config::Config;
 use crate::error::Error;

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use uglight::ColorShift;
 use ugphysics::Velocity;
-use ugpicture::lens::{Film, Lens};
 use ugpicture::{Background, Filter};
 use ugsky::{Basis, SkyColors, StarOptions};
+use ugtrace::lens::{Film, Lens};
 
 /// A picture of a sky by one eye: lens, observer, and how colours change.
 #[derive(Clone, Debug)]

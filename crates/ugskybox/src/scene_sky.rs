@@ -9,11 +9,11 @@ use rayon::prelude::*;
 use ugimage::LinearFrame;
 use uglight::ColorShift;
 use ugphysics::Velocity;
-use ugpicture::lens::{Film, Lens};
 use ugpicture::{Background, Note, PictureOptions};
 use ugpipe::Progress;
 use ugscene::{StatedSky, View};
 use ugsky::{ALL_NM, Basis, StarOptions};
+use ugtrace::lens::{Film, Lens};
 
 use crate::around::SkyAround;
 use crate::built_in::BuiltIn;

@@ -5,8 +5,8 @@ use core::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::LinearFrame;
-use ugpicture::lens::{Film, Lens, Window};
 use ugsky::{Observer, Star, StarLight, StarOptions};
+use ugtrace::lens::{Film, Lens, Window};
 
 use crate::picture::SkyPicture;
 

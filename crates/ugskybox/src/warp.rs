@@ -6,10 +6,10 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, display_pixel};
 use ugphysics::luminance;
-use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
 use ugsky::{BasisError, FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyLight, SkyView};
+use ugtrace::lens::{Film, Lens};
 
 use crate::picture::SkyPicture;
 

@@ -16,7 +16,6 @@ use ugpicture::cli::{
     AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, refuse_terminal, with_format,
     write_picture,
 };
-use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, number,
@@ -26,6 +25,7 @@ use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
 use ugsky::{Arrangement, Band, Basis, Extent, StarOptions, VISIBLE_NM};
 use ugskybox::{OpenError, Opened, StarList, is_star_list, open, open_spectrum, read_stars};
+use ugtrace::lens::Lens;
 
 use crate::config::Config;
 use crate::error::Error;

@@ -5,10 +5,10 @@ use std::ops::Range;
 use ugimage::PanoramaArea;
 use uglight::ColorShift;
 use ugphysics::Velocity;
-use ugpicture::lens::Lens;
 use ugpicture::{Channel, PictureOptions, refuse};
 use ugscene::{Camera, MotionOptions, Projection, Scene};
 use ugsky::{ALL_NM, Basis, StarOptions};
+use ugtrace::lens::Lens;
 
 use crate::error::Error;
 
@@ -60,7 +60,7 @@ impl Config {
     /// The panorama that the picture is, for viewers of 360° pictures.
     #[must_use]
     pub fn panorama(&self) -> Option<PanoramaArea> {
-        self.lens.panorama(&self.picture, false, None)
+        self.picture.panorama_area(self.lens, false, None)
     }
 
     /// The same with the camera of a scene at [`time`](Self::time) instead of the velocity: where

@@ -54,7 +54,6 @@ pub use config::Config;
 pub use error::Error;
 pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
-pub use ugpicture::lens::Lens;
 pub use ugpicture::{
     Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering,
     Tone,
@@ -65,3 +64,4 @@ pub use ugsky::{
     ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, StarOptions, Texels,
 };
 pub use ugskybox::{OpenError, Opened, StarList, Warp, is_star_list, open, read_stars};
+pub use ugtrace::lens::Lens;

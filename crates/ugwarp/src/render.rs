@@ -6,7 +6,6 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
-use ugpicture::lens::Film;
 use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject,
 };
@@ -14,6 +13,7 @@ use ugpipe::Progress;
 use ugscene::{CameraError, CameraOptions, Head, Provenance, Scene, View};
 use ugsky::{Basis, Layer, Sky};
 use ugskybox::{Opened, SkyPicture, StarField, Statistics, Warp, sky_colors};
+use ugtrace::lens::Film;
 
 use crate::config::Config;
 use crate::error::Error;

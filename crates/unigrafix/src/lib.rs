@@ -24,7 +24,8 @@
 //! - [`lorentz`], [`doppler`] and [`rainbow`] draw them, [`photon`] traces rays, [`warp`] draws
 //!   panoramas, [`film`] the frames of a film, [`sheet`] several pictures on one;
 //! - [`physics`] has the formulas, [`sky`] and [`skybox`] skies, [`light`] lamps and colours,
-//!   [`picture`] and [`image`] what pictures have in common and their files, [`pipe`] progress.
+//!   [`trace`] what rays meet, [`picture`] and [`image`] what pictures have in common and their
+//!   files, [`pipe`] progress.
 //!
 //! The types of every public field of a `Config` are in one of them. A `Config` may have more
 //! fields in a later version, so complete it: `Config { time: 2.0, ..Config::default() }`; and
@@ -48,4 +49,5 @@ pub use ugscene as scene;
 pub use ugsheet as sheet;
 pub use ugsky as sky;
 pub use ugskybox as skybox;
+pub use ugtrace as trace;
 pub use ugwarp as warp;

@@ -10,13 +10,13 @@ use serde::Serialize;
 use uglight::{ColorForm, ColorShift, light_names};
 use ugparse::{Diagnostics, Source};
 use ugphysics::Velocity;
-use ugpicture::SurfacePoint;
 use ugpicture::explain::{
     ExplainedEvent, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor,
     SampleContent, sparse_step,
 };
 use ugscene::HueScale;
 use ugskybox::SkyError;
+use ugtrace::SurfacePoint;
 
 use crate::config::Config;
 use crate::error::Error;

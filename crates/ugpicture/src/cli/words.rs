@@ -3,8 +3,8 @@
 use ugpipe::{CommonArgs, Words, remedies};
 use ugscene::CameraError;
 
-use crate::textures::TextureError;
 use crate::{Error, Note, WithoutFaces};
+use ugtrace::textures::TextureError;
 
 impl Words for Error {
     fn words(&self) -> String {

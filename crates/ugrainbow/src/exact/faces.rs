@@ -5,10 +5,10 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::Swatch;
-use ugpicture::outlines::{OutlinedFace, Outlines, PictureRays, RestFaces, RestRay, Tiles};
-use ugpicture::rays::{Intersection, PastRay};
 use ugraster::{Area, FragmentWriter, ShapeTarget, TRANSPARENT_VALUES, Tile};
 use ugscene::Face;
+use ugtrace::outlines::{OutlinedFace, Outlines, PictureRays, RestFaces, RestRay, Tiles};
+use ugtrace::rays::{Intersection, PastRay};
 
 use super::look::Look;
 use super::moving::MovingFaces;

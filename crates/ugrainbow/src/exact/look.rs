@@ -4,8 +4,8 @@ use glam::DVec3;
 use uglight::{
     ColorForm, FaceColors, Illumination, Lighting, Mixing, SpectralRows, SurfaceColor, Swatch,
 };
-use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{ColorId, Face, VertexId};
+use ugtrace::outlines::{PictureRays, RestRay};
 
 use crate::painter::Painter;
 

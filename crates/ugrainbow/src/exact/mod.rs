@@ -1,6 +1,6 @@
 //! Faces drawn with one ray per sample, exact at every sample (`-xc`).
 //!
-//! [`ugpicture::outlines`] finds the nearest face at each sample, and [`ugpicture::rays`] those of
+//! [`ugtrace::outlines`] finds the nearest face at each sample, and [`ugtrace::rays`] those of
 //! bodies on world lines. Doppler factor, colour and light are those of the intersection; nothing
 //! is interpolated in the picture:
 //!

@@ -6,10 +6,10 @@ use std::ops::{ControlFlow, Range};
 
 use glam::DVec3;
 use uglight::{FaceColors, Swatch};
-use ugpicture::rays::{Faces, Intersection, PastRay, World};
-use ugpicture::{SurfacePoint, Surfaces};
 use ugraster::Bounds;
 use ugscene::{Face, VertexId};
+use ugtrace::rays::{Faces, Intersection, PastRay, World};
+use ugtrace::{SurfacePoint, Surfaces};
 
 use super::look::{Look, with_emitted};
 use crate::painter::Painter;

@@ -9,12 +9,12 @@ use glam::DVec3;
 use uglight::Appearance;
 use ugphoton::{Anchor, CameraOptions, ColorShift, Interpolation, MotionOptions, PictureOptions};
 use ugphysics::{Event, Medium, Velocity, WaveVector};
-use ugpicture::rays::{
+use ugscene::{PlacedBodies, Scene, ShownPoint, View};
+use ugtesting::Random;
+use ugtrace::rays::{
     Corridor, Faces, Intersection, MovingBox, MovingBoxes, PacketMemory, PastRay, Rays, Start,
     World, along,
 };
-use ugscene::{PlacedBodies, Scene, ShownPoint, View};
-use ugtesting::Random;
 
 /// Tetrahedra in random places, each with a velocity of its own.
 fn scene(random: &mut Random, n: usize, fastest: f64) -> String {

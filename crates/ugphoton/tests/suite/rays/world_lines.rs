@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use ugphysics::{Event, WorldLine};
-use ugpicture::rays::{Intersection, PastRay, Start};
-use ugpicture::{SurfacePoint, Surfaces, textures::Textures};
 use ugtesting::Random;
+use ugtrace::rays::{Intersection, PastRay, Start};
+use ugtrace::{SurfacePoint, Surfaces, textures::Textures};
 
 use super::{Scenery, ray};
 

@@ -5,10 +5,7 @@ mod pixels_near;
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
-use ugimage::PanoramaArea;
 use ugscene::View;
-
-use crate::options::PictureOptions;
 
 pub use pixels_near::{Facet, Window};
 
@@ -43,24 +40,6 @@ impl Lens {
             (Self::Panorama, true) => [1, 2],
             (Self::Pinhole | Self::Fisheye { .. }, true) => [2, 1],
         }
-    }
-
-    /// What viewers of 360° pictures are told about a picture: `None` unless it is an
-    /// equirectangular panorama, twice as wide as high, for one eye and without annotations.
-    ///
-    /// `crop`: left column, upper row, width and height of the part that is drawn.
-    #[must_use]
-    pub fn panorama(
-        self,
-        picture: &PictureOptions,
-        is_stereo: bool,
-        crop: Option<[u32; 4]>,
-    ) -> Option<PanoramaArea> {
-        let [width, height] = picture.size;
-        let is_whole = self == Self::Panorama && !is_stereo && !picture.annotations.is_any();
-        let [left, top, ..] = crop.unwrap_or_default();
-        (is_whole && u64::from(width) == 2 * u64::from(height))
-            .then_some(PanoramaArea { whole: picture.size, corner: [left, top] })
     }
 }
 
