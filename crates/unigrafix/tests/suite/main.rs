@@ -12,7 +12,7 @@ use std::sync::Arc;
 use unigrafix::glam::{DQuat, DVec3};
 use unigrafix::{
     doppler, film, image, light, lorentz, mesh, parse, photon, physics, picture, pipe, rainbow,
-    scene, sheet, sky, skybox, warp,
+    scene, sheet, sky, skybox, trace, warp,
 };
 
 /// Takes a struct apart into fields of the given types.
@@ -78,7 +78,7 @@ fn every_type_of_a_config_has_a_name() {
         hue_scale: scene::HueScale,
         smooth: bool,
         repeat: bool,
-        lens: picture::lens::Lens,
+        lens: trace::lens::Lens,
         stereo: Option<f64>,
         adaptive: Option<f64>,
         sky: skybox::SceneSky,
@@ -94,7 +94,7 @@ fn every_type_of_a_config_has_a_name() {
         shift: light::ColorShift,
         basis: sky::Basis,
         picture: picture::PictureOptions,
-        lens: picture::lens::Lens,
+        lens: trace::lens::Lens,
         stars: sky::StarOptions,
         range_nm: Range<f64>,
     });
