@@ -4,6 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use ugimage::{Format, Frame, Metadata};
 use ugtests::shell::Shell;
 use ugtests::{programs, tools};
 
@@ -25,7 +26,7 @@ fn refused(shell: &Shell, film: &str, expected: i32, message: &str) {
 }
 
 /// Films of every renderer, with options that change.
-const FILMS: [&str; 10] = [
+const FILMS: [&str; 13] = [
     "-frames 3 -vel '0 0 0 .. .9 0 0' -in -sz 80 60 dice.ug",
     "-frames 3 -ti -2..2 -vel 0 .8 0 -in -sp -ex auto -ease smooth -sz 80 60 dice.ug",
     "-frames 3 -ti -2..6 -vel 0 .8 0 -follow -va 20 -sz 80 60 dice.ug",
@@ -35,13 +36,30 @@ const FILMS: [&str; 10] = [
     "-frames 3 -cv '0 0 0 .. 0 .9 0' --ahead -va 60 -crease 20 -hl dash -sz 80 60 street.ug",
     "-warp -frames 3 -cv '0 0 0 .. 0 .9 0' -sp -ex auto -pz -va 100..80 -sz 60 40 sky.png",
     "-warp -pan -frames 3 -cv '0 0 0 .. 0 .9 0' -sz 60 30 sky.png",
+    "-warp -frames 3 -cv '0 0 0 .. 0 .9 0' -sp -ex follow -sz 60 40 -cap 'picture {frame}' pano_%02d.png",
+    "-warp -frames 3 -cv 0 .5 0 -sp -ex 0 --infrared pano_%02d.png --infrared-to 1000..1400 -sz 60 40 pano_%02d.png",
+    "-warp -frames 3 -part '-180 180 -90 90 .. -180 100 -90 90' --highlights 0..6 -cv 0 .3 0 -sp -ex 0 -sz 60 40 sky.png",
     "-rays -frames 3 -loop -ti -3..3 -vel .9 0 0 -in -sz 60 40 -aa 2 shadow.ug",
 ];
+
+/// Numbered panoramas of two digits, each of other colours.
+fn panoramas(shell: &Shell, numbers: impl Iterator<Item = u32>) {
+    for number in numbers {
+        let pixel = |idx: u32| {
+            let [column, row] = [idx % 64, idx / 64];
+            [(column * 4) as u8, (row * 8) as u8, (40 * number) as u8, 255]
+        };
+        let frame = Frame::new([64, 32], true, (0..64 * 32).map(pixel).collect());
+        let file = Format::Png.encode(&frame, &Metadata::default());
+        shell.write(&format!("pano_{number:02}.png"), file);
+    }
+}
 
 #[test]
 fn every_frame_is_the_picture_of_its_pipe() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
     shell.run("ugphoton -pan -sz 80 40 -aa 1 street.ug > sky.png");
+    panoramas(&shell, 1..=3);
     for (row, film) in FILMS.into_iter().enumerate() {
         let ending = if film.contains("-vec") { "svg" } else { "png" };
         for n_threads in [1, 5] {
@@ -832,6 +850,98 @@ fn frames_of_skies_are_drawn_again_after_a_change_of_any_file() {
     assert!(!drawn() && drawn());
     write("more.csv", "ra,dec,mag,kelvin\n10,0,2,5000\n40,0,1,5000\n");
     assert!(!drawn() && drawn());
+}
+
+/// The k-th frame is drawn from the k-th picture, and drawn again after a change of that alone.
+#[test]
+fn numbered_panoramas_are_those_of_the_frames() {
+    let shell = Shell::new(&["stars.csv"]);
+    panoramas(&shell, 5..=8);
+    let film = "ugfilm -warp -frames 4 -cv 0 .5 0 --stars stars.csv -ex 0 -sz 40 30 -fo f_%d.png pano_%02d.png";
+    let [_, messages] = shell.run(film);
+    assert!(messages.contains("note: the first picture is `pano_05.png`"), "{messages}");
+    assert!(!messages.contains("all frames are alike"), "{messages}");
+    let [script, _] = shell.run(&format!("{film} --print 3"));
+    assert!(
+        script.starts_with("ugwarp pano_07.png ") && script.ends_with("> f_3.png\n"),
+        "{script}"
+    );
+    let [recorded, _] = shell.run("ugsheet -qt --history f_3.png; sha256sum pano_07.png");
+    let hash = recorded.lines().last().unwrap().split(' ').next().unwrap();
+    let [text, _] = shell.run("ugsheet --history f_3.png");
+    assert!(text.contains(hash) && text.contains("pano_07.png"), "{text}");
+    // With one that is changed, and as a whole film that keeps its frames.
+    let before = files(&shell, ".");
+    shell.run("cp pano_05.png pano_07.png");
+    let [_, messages] = shell.run(film);
+    assert!(messages.contains("1 frames drawn, 3 were there already"), "{messages}");
+    let after = files(&shell, ".");
+    let changed: Vec<_> = before.keys().filter(|name| before[*name] != after[*name]).collect();
+    assert_eq!(changed, ["f_3.png", "pano_07.png"]);
+    let one = film.replace("-fo f_%d.png", "-keep f_%d.png -fo all.apng");
+    let [_, messages] = shell.run(&one);
+    assert!(messages.contains("0 frames drawn, 4 were there already"), "{messages}");
+    shell.run(&film.replace("-fo f_%d.png", "-fo alone.apng"));
+    assert!(shell.read("all.apng") == shell.read("alone.apng"));
+    // A second slider has the same pictures again.
+    let page = "ugfilm -warp -frames 4 -cv '0 0 0 .. 0 .5 0' -va 60..90 -across va 2 -ex 0 -sz 16 12 -fo p.html";
+    let [script, _] = shell.run(&format!("{page} --print pano_%02d.png"));
+    let inputs: Vec<&str> = script.lines().filter_map(|line| line.split(' ').nth(1)).collect();
+    let row = ["pano_05.png", "pano_06.png", "pano_07.png", "pano_08.png"];
+    assert_eq!(inputs, [row, row].concat());
+}
+
+/// A moment of motion blur is drawn from the picture of the nearest frame.
+#[test]
+fn moments_of_numbered_panoramas_are_those_of_the_nearest_frame() {
+    let shell = Shell::new(&[]);
+    panoramas(&shell, 1..=3);
+    let film = "ugfilm -warp -frames 3 -cv '0 0 0 .. 0 .5 0' -blur 2 -moments 4 -sz 20 15 -dt exr -fo b_%d.exr pano_%02d.png";
+    shell.run(film);
+    let [script, _] = shell.run(&format!("{film} --print 2"));
+    let inputs: Vec<&str> =
+        script.lines().skip(1).filter_map(|line| line.split(' ').nth(1)).collect();
+    assert_eq!(inputs, ["pano_01.png", "pano_02.png", "pano_02.png", "pano_03.png"]);
+    shell.write("moments.sh", script);
+    shell.run("sh -e moments.sh");
+    let moments = ["01", "02", "03", "04"].map(|row| light(&shell, &format!("b_2.{row}.exr")));
+    for (idx, pixel) in light(&shell, "b_2.exr").into_iter().enumerate() {
+        for channel in 0..3 {
+            let mean = moments.iter().map(|moment| moment[idx][channel]).sum::<f32>() / 4.0;
+            assert!((pixel[channel] - mean).abs() < 2e-3 * mean.max(0.1), "{pixel:?} {mean}");
+        }
+    }
+}
+
+#[test]
+fn numbered_panoramas_that_are_missing_are_named_first() {
+    let shell = Shell::new(&[]);
+    let film = "ugfilm -warp -frames 5 -cv 0 .5 0 -ex 0 -sz 16 12 -fo f_%d.png pano_%02d.png";
+    refused(&shell, film, 1, "there are no pictures such as `pano_01.png`");
+    panoramas(&shell, 0..=3);
+    let message =
+        "`pano_04.png` is missing, of which frame 5 is drawn; there are 4 pictures: give -frames 4";
+    refused(&shell, film, 1, message);
+    refused(&shell, &format!("{film} --print"), 1, message);
+    shell.run("cp pano_03.png pano_04.png; cp pano_03.png pano_05.png; rm pano_02.png");
+    refused(&shell, film, 1, "error: `pano_02.png` is missing, of which frame 3 is drawn\n");
+    let metered = film.replace("-ex 0", "-ex auto -only 1..2");
+    refused(&shell, &metered, 1, "cannot read `pano_02.png`");
+    assert!(!files(&shell, ".").keys().any(|name| name.starts_with("f_")));
+    shell.run(&format!("{film} -only 1..2,4..5"));
+    panoramas(&shell, 2..=2);
+    let [_, messages] = shell.run(film);
+    let note = "of 6 pictures the film shows the first 5; give -frames 6 to show all";
+    assert!(messages.contains(note), "{messages}");
+    let infrared = format!("{film} -sp --infrared ir_%02d.png");
+    shell.run("cp pano_00.png ir_00.png");
+    refused(&shell, &infrared, 1, "`ir_01.png` is missing, of which frame 2 is drawn");
+    // One that cannot be read, and a file of the very name.
+    shell.run("head -c 200 pano_03.png > pano_02.png");
+    refused(&shell, film, 1, "frame 3: `pano_02.png`: ");
+    shell.run("cp pano_03.png pano_%02d.png; rm f_*");
+    shell.run(film);
+    assert_eq!(files(&shell, ".").keys().filter(|name| name.starts_with("f_")).count(), 5);
 }
 
 #[test]

@@ -105,7 +105,7 @@ const TEXTURED: &[&str] = &["tex.ug", "-rays tex.ug", "-xc -sd 1 tex.ug"];
 const MESH: &[&str] = &["s.obj", "-rays s.obj", "-xc -sd 1 s.obj"];
 const PLAIN: &[&str] = &["plain.ug", "-rays plain.ug", "-xc -sd 1 plain.ug", "-li plain.ug"];
 
-const KINDS: [Kind; 29] = [
+const KINDS: [Kind; 31] = [
     Kind {
         what: "the input",
         write: |shell, version| {
@@ -315,6 +315,21 @@ const KINDS: [Kind; 29] = [
         what: "the input, a panorama",
         write: |shell, version| shell.write("wall.png", picture(Format::Png, version)),
         films: &["-warp -va 90 wall.png", "-warp -va 90 < wall.png"],
+    },
+    Kind {
+        what: "the input, numbered panoramas",
+        write: |shell, version| {
+            (3..=4).for_each(|n| shell.write(&format!("p{n}.png"), picture(Format::Png, version)));
+        },
+        films: &["-warp -va 90 p%d.png", "-warp -va 90 -blur .5 -moments 2 p%d.png"],
+    },
+    Kind {
+        what: "the input, read in another way by each frame",
+        write: |shell, version| shell.write("wall.png", picture(Format::Png, version)),
+        films: &[
+            "-warp -va 90 -sp --highlights 0..1 wall.png",
+            "-warp -va 90 -sp --highlights 0..1 < wall.png",
+        ],
     },
     Kind {
         what: "--stars",

@@ -24,7 +24,7 @@ METHODS = {
 }
 
 #: Options that write files or reports, or have no effect; that of threads is a keyword of all functions.
-LEFT_OUT = {"fi", "fo", "fm", "qt", "vb", "nt", "at", "explain", "pv", "cn", "print", "help", "version"}
+LEFT_OUT = {"fi", "fo", "fm", "qt", "vb", "nt", "at", "explain", "needs", "pv", "cn", "print", "help", "version"}
 
 
 class Option(NamedTuple):

@@ -6,11 +6,12 @@ use ugimage::{LinearFrame, Metadata};
 use ugpicture::{
     Annotated, AnnotationOptions, Canvas, Drawn, DrawnContent, Output, PictureOptions, Rendering,
 };
-use ugpipe::sha256;
+use ugpipe::{Failure, sha256};
 
 use crate::error::Error;
 use crate::note::Note;
-use crate::pipe::{DrawnLight, FilmSubject, Pipe};
+use crate::pipe::{DrawnLight, Pipe};
+use crate::series::{Opener, Subjects};
 
 /// How long the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,19 +37,28 @@ impl MotionBlur {
 
 /// A frame that can be drawn.
 pub struct Shot {
+    /// Its number, counted from 1.
+    pub number: u32,
     /// The frame at its own moment.
     pub frame: Pipe,
-    /// The moments while the shutter is open; none without a shutter.
-    pub moments: Vec<Pipe>,
+    /// The moments while the shutter is open, in frames; none without a shutter.
+    pub moments: Vec<(f64, Pipe)>,
 }
 
 impl Shot {
     /// The record in the file of the frame.
-    pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
+    ///
+    /// # Errors
+    /// A file of its subject cannot be read.
+    pub fn metadata(&self, subjects: Subjects<'_>) -> Result<Metadata, Failure> {
+        let frame = self.frame.recorded(subjects.head(self.number.into())?);
         if self.moments.is_empty() {
-            return self.frame.metadata(subject);
+            return Ok(frame);
         }
-        metadata(&self.frame, &self.moments, subject)
+        let record = |(moment, pipe): &(f64, Pipe)| {
+            Ok::<_, Failure>(pipe.recorded(subjects.head(*moment)?).comment)
+        };
+        Ok(of_mean(frame, &self.moments.iter().map(record).collect::<Result<Vec<_>, _>>()?))
     }
 
     /// Checks that the frame can have what its options ask for.
@@ -66,32 +76,44 @@ impl Shot {
     /// Draws the frame. `light`: what [`Pipe::light`] returns for it, if that is known.
     ///
     /// # Errors
-    /// The scene or panorama cannot be drawn with these options, or the mean of its moments cannot
-    /// have what they ask for.
+    /// The subject cannot be opened, the scene or panorama cannot be drawn with these options, or
+    /// the mean of its moments cannot have what they ask for.
     pub fn draw(
         self,
-        subject: FilmSubject<'_>,
+        subjects: Subjects<'_>,
         light: Option<DrawnLight>,
-    ) -> Result<(Rendering, Vec<Note>), Error> {
-        let light = light.filter(|_| is_made_of_light(&self.frame.picture, subject));
+    ) -> Result<(Rendering, Vec<Note>), Failure> {
+        let mut opener = subjects.opener();
+        let (picture, notes) = self.drawn(&mut opener, subjects, light)?;
+        Ok((picture, opener.notes().chain(notes).collect()))
+    }
+
+    fn drawn(
+        self,
+        opener: &mut Opener<'_>,
+        subjects: Subjects<'_>,
+        light: Option<DrawnLight>,
+    ) -> Result<(Rendering, Vec<Note>), Failure> {
+        let moment = f64::from(self.number);
+        let light = light.filter(|_| is_made_of_light(&self.frame.picture, subjects));
         if self.moments.is_empty() && light.is_none() {
-            return self.frame.draw(subject);
+            return self.frame.draw(opener.at(moment)?).map_err(Failure::of);
         }
-        self.check()?;
-        let metadata = self.metadata(subject);
-        let canvas = Canvas::new(&self.frame.picture)?;
-        if !is_made_of_light(&self.frame.picture, subject) {
+        self.check().map_err(Failure::of)?;
+        let metadata = self.metadata(subjects)?;
+        let canvas = Canvas::new(&self.frame.picture).map_err(Failure::of)?;
+        if !is_made_of_light(&self.frame.picture, subjects) {
             // The scene of the frame's own moment is drawn for its annotations.
             let mut frame = self.frame.clone();
-            frame.picture.light = Some(Arc::new(self.mean(canvas.options().size, subject)?));
-            let (mut picture, notes) = frame.draw(subject)?;
+            frame.picture.light = Some(Arc::new(self.mean(canvas.options().size, opener)?));
+            let (mut picture, notes) = frame.draw(opener.at(moment)?).map_err(Failure::of)?;
             let Metadata { camera, per_inch, .. } = std::mem::take(&mut picture.metadata);
             picture.metadata = Metadata { camera, per_inch, ..metadata };
             return Ok((picture, notes));
         }
         let (frame, mut notes) = match light {
             Some(light) => light,
-            None => (self.mean(canvas.options().size, subject)?, Vec::new()),
+            None => (self.mean(canvas.options().size, opener)?, Vec::new()),
         };
         let drawn = Drawn::<Error> {
             content: DrawnContent::Light { frame, is_clipped: false },
@@ -99,7 +121,7 @@ impl Shot {
             notes: notes.iter().filter_map(Note::of_picture).cloned().collect(),
             annotated: Annotated { is_shifted: false, subject: ugpicture::Subject::Pixels },
         };
-        let mut picture = canvas.finish(drawn, metadata, &())?;
+        let mut picture = canvas.finish(drawn, metadata, &()).map_err(Failure::of)?;
         if self.moments.is_empty() {
             notes.retain(|note| note.of_picture().is_none());
             notes.extend(self.frame.notes(&mut picture));
@@ -108,34 +130,31 @@ impl Shot {
     }
 
     /// The mean light of all moments.
-    fn mean(&self, size: [u32; 2], subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
+    fn mean(&self, size: [u32; 2], opener: &mut Opener<'_>) -> Result<LinearFrame, Failure> {
         let mut sum = Sum::default();
-        for moment in &self.moments {
-            sum.add(&moment.light(size, subject)?.0);
+        for (moment, pipe) in &self.moments {
+            sum.add(&pipe.light(size, opener.at(*moment)?).map_err(Failure::of)?.0);
         }
         Ok(sum.mean())
     }
 }
 
 /// True if a picture with these options can be made of its light, without the scene.
-pub fn is_made_of_light(picture: &PictureOptions, subject: FilmSubject<'_>) -> bool {
+pub fn is_made_of_light(picture: &PictureOptions, subjects: Subjects<'_>) -> bool {
     let PictureOptions { annotations, channels, output, .. } = picture;
     let AnnotationOptions { legend, outline, grid, map, iso, .. } = annotations;
     let needs_scene = *legend || *outline || *grid || map.is_some() || iso.is_some();
-    let has_labels =
-        matches!(subject, FilmSubject::Scene(scene) if scene.labels().next().is_some());
-    !needs_scene && !has_labels && channels.is_empty() && !matches!(output, Output::Vector(_))
+    let has_scene = needs_scene || subjects.have_labels();
+    !has_scene && channels.is_empty() && !matches!(output, Output::Vector(_))
 }
 
-/// The record in the file. No single pipe draws it, so it has none of the lines that
+/// The record in the file of a mean. No single pipe draws it, so it has none of the lines that
 /// can be run; the hash is that of the records of all moments.
-fn metadata(frame: &Pipe, moments: &[Pipe], subject: FilmSubject<'_>) -> Metadata {
-    let records: Vec<String> = moments.iter().map(|pipe| pipe.metadata(subject).comment).collect();
-    let metadata = frame.metadata(subject);
+fn of_mean(metadata: Metadata, records: &[String]) -> Metadata {
     let commands = metadata.comment.lines().filter(|line| !line.contains(" # SHA-256 "));
     let mean = format!(
         "mean light of {} moments, whose records have the SHA-256 {}",
-        moments.len(),
+        records.len(),
         sha256(records.join("\n").as_bytes())
     );
     let lines: Vec<&str> = commands.chain([mean.as_str()]).collect();

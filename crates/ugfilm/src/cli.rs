@@ -20,15 +20,17 @@ use ugsheet::film::{Caption, DEFAULT_RATE, FilmKind, FrameNames, MOST_GIF_RATE, 
 use crate::blur::MotionBlur;
 use crate::film::{Film, HeldLight, MeasuredExposure, Summary};
 use crate::frame_files::{keep_exposure, kept_exposure, remove_kept_exposure};
+use crate::keys;
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
 use crate::pipe::{FilmSubject, Pipe};
+use crate::print::{self, argument};
 use crate::program::Program;
 use crate::script::Script;
+use crate::series::{Pictures, Series, Subjects};
 use crate::sight::{Sight, Unseen};
 use crate::timeline::{Ease, Quantity, Timeline};
-use crate::{keys, print};
 
 /// Draws the frames of a film or a figure sequence
 ///
@@ -208,7 +210,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if follows || script.fixed("ex").is_some_and(|word| word == "hold") {
         script.set("ex", vec!["auto".to_owned()]);
     }
-    let read = Read::new(args, &mut script, context)?;
+    let read = Read::new(args, &mut script, &frames, context)?;
     let mut forecast = Forecast::default();
     if let Read::Scene(scene) = &read {
         if args.follow {
@@ -226,11 +228,12 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let (Output::Film(kind), None) = (&output, args.print) {
         check_kind(*kind, rate, &script, context)?;
     }
-    let (subject, format) = (read.subject(), output.frame_format());
+    let format = output.frame_format();
     let blur = args.blur.map(|open| MotionBlur { open, n_moments: args.moments });
     let mut light = HeldLight::default();
     if script.fixed("ex").as_deref() == Some("auto") {
-        let film = Film { subject, script: &script, format, blur, light: HeldLight::default() };
+        let subjects = read.subjects(&script);
+        let film = Film { subjects, script: &script, format, blur, light: HeldLight::default() };
         let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
         let measured = exposure(&film, follows, names, args.print.is_some(), context)?;
         let least = measured.stops.iter().map(|(_, stops)| *stops).reduce(f64::min).unwrap_or(0.0);
@@ -258,9 +261,9 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
         script.set("ex", vec!["0".to_owned()]);
     }
-    let film = Film { subject, script: &script, format, blur, light };
+    let film = Film { subjects: read.subjects(&script), script: &script, format, blur, light };
     if let Some(number) = args.print {
-        let input = args.common.input().map(argument);
+        let input = args.common.input().map(Path::to_owned).map(argument);
         let chosen = frames.into_iter().filter(|&frame| number == 0 || frame == number);
         let text = print::script(&film, chosen, &output.frame_names(), input.as_deref())?;
         if text.is_empty() {
@@ -272,7 +275,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if context.output_is_terminal() && !matches!(output, Output::Files(..)) {
         return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
     }
-    if film.script.is_still() && frames.len() > 1 {
+    if film.script.is_still() && frames.len() > 1 && !matches!(read, Read::Series(_)) {
         context.note(
             "no option has several values, so all frames are alike; give one, such as -ti 0..10",
         );
@@ -284,7 +287,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         }
         Output::Film(kind) => {
             let caption = |&frame: &u32| -> Result<Caption, Failure> {
-                let input = args.common.input().map(argument);
+                let input = args.common.input().map(Path::to_owned).map(argument);
                 let names = output.frame_names();
                 let line = print::script(&film, std::iter::once(frame), &names, input.as_deref())?;
                 Ok(Caption { values: script.changing(f64::from(frame))?, line })
@@ -418,12 +421,6 @@ fn tell_wrong(wrong: &WrongBrightness, n_frames: usize, what_was_done: &str, con
     }
 }
 
-/// A path as a word of a command line, which is not an option.
-fn argument(path: &Path) -> PathBuf {
-    let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
-    if is_option { Path::new(".").join(path) } else { path.to_owned() }
-}
-
 /// The findings about frames that were printed before the film is drawn.
 #[derive(Default)]
 struct Forecast {
@@ -492,13 +489,28 @@ enum Read {
     Scene(Box<Scene>),
     /// A panorama, and the record of the files that were read for it.
     Panorama(Box<ugwarp::Opened>, Vec<String>),
+    /// Panoramas that are opened frame by frame.
+    Series(Box<Series>),
 }
 
 impl Read {
-    /// Reads the input. A scene without a camera gets one for all frames.
-    fn new(args: &Args, script: &mut Script, context: &mut Context) -> Result<Self, Failure> {
+    /// Reads the input. A scene without a camera gets one for all frames. `frames`: those to draw.
+    fn new(
+        args: &Args,
+        script: &mut Script,
+        frames: &[u32],
+        context: &mut Context,
+    ) -> Result<Self, Failure> {
         if args.pipe.warp {
+            if let Some(series) = Series::of_files(&args.common, script, frames, context)? {
+                return Ok(Self::Series(series.into()));
+            }
             let input = context.input()?;
+            if script.opens_each() {
+                let path = args.common.input().map(Path::to_owned);
+                let pictures = Pictures::One(path, input);
+                return Ok(Self::Series(Series::new(pictures, script, context)?.into()));
+            }
             let opened = args.panorama(script, &input, context)?;
             opened.notes.iter().for_each(|note| context.note(note));
             return Ok(Self::Panorama(Box::new(opened), context.take_record(&input)));
@@ -531,10 +543,11 @@ impl Read {
         Ok(Self::Scene(Box::new(parsed.scene)))
     }
 
-    fn subject(&self) -> FilmSubject<'_> {
+    fn subjects<'s>(&'s self, script: &'s Script) -> Subjects<'s> {
         match self {
-            Self::Scene(scene) => FilmSubject::Scene(scene),
-            Self::Panorama(panorama, files) => FilmSubject::Panorama(panorama, files),
+            Self::Scene(scene) => Subjects::Same(FilmSubject::Scene(scene)),
+            Self::Panorama(opened, files) => Subjects::Same(FilmSubject::Panorama(opened, files)),
+            Self::Series(series) => Subjects::Each(series, script),
         }
     }
 }
@@ -606,7 +619,7 @@ impl Args {
         input: &Input,
         context: &Context,
     ) -> Result<ugwarp::Opened, Failure> {
-        let words = script.commands(1.0, &[])?.0.concat();
+        let words = script.opening(1.0)?;
         parse_words::<ugwarp::Args>(words.into_iter().map(OsString::from))?.open(input, context)
     }
 

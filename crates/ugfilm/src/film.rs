@@ -18,8 +18,9 @@ use crate::exposure::smoothed;
 use crate::frame_files::{claim, is_done, read_done, remove_stale_claims};
 use crate::levels::WrongBrightness;
 use crate::note::Note;
-use crate::pipe::{DrawnLight, FilmSubject, Pipe};
+use crate::pipe::{DrawnLight, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
+use crate::series::Subjects;
 use crate::work::in_order;
 
 /// Largest number of frames whose commands are checked before the first frame is drawn.
@@ -39,8 +40,8 @@ const MOST_LIGHT: u64 = 1 << 29;
 
 /// A film that can be drawn.
 pub struct Film<'s> {
-    /// The subject.
-    pub subject: FilmSubject<'s>,
+    /// The subjects of its frames.
+    pub subjects: Subjects<'s>,
     /// The commands of its frames.
     pub script: &'s Script,
     /// The format of single frames.
@@ -129,9 +130,12 @@ impl Film<'_> {
     }
 
     fn shot(&self, frame: u32) -> Result<Shot, Failure> {
-        let pipe = |moment: f64| self.script.pipe(moment, DONE_TO_LIGHT, self.format);
+        let pipe = |moment: f64| {
+            Ok::<_, Failure>((moment, self.script.pipe(moment, DONE_TO_LIGHT, self.format)?))
+        };
         let moments = self.moments(frame).unwrap_or_default().into_iter().map(pipe);
-        Ok(Shot { moments: moments.collect::<Result<_, _>>()?, frame: self.pipe(frame)? })
+        let moments = moments.collect::<Result<_, _>>()?;
+        Ok(Shot { number: frame, moments, frame: self.pipe(frame)? })
     }
 
     fn file(&self, frame: u32) -> Result<Vec<u8>, Failure> {
@@ -140,7 +144,7 @@ impl Film<'_> {
 
     fn draw(&self, frame: u32, shot: Shot) -> Result<(Rendering, Vec<Note>), Failure> {
         let light = self.light.lock().unwrap_or_else(PoisonError::into_inner).remove(&frame);
-        shot.draw(self.subject, light).map_err(Failure::of)
+        shot.draw(self.subjects, light)
     }
 
     /// Width and height of all frames.
@@ -188,7 +192,7 @@ impl Film<'_> {
     ) -> Result<(), Failure> {
         steps.count(step, frames.len() as u64);
         in_order(
-            frames.len(),
+            (frames.len(), self.subjects.most_at_once()),
             |row| about(frames[row], compute(frames[row])),
             |row, computed| {
                 consume(frames[row], computed)?;
@@ -209,7 +213,7 @@ impl Film<'_> {
         Ok(is_short
             && self.blur.is_none()
             && first.draws_polygons()
-            && is_made_of_light(&first.picture, self.subject))
+            && is_made_of_light(&first.picture, self.subjects))
     }
 
     /// The automatic exposure of all lit pixels of the film, or one that follows the light of
@@ -223,7 +227,9 @@ impl Film<'_> {
         let measure = |frame| {
             let pipe = self.pipe(frame)?;
             let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
-            let light = pipe.size_above_caption().and_then(|size| pipe.light(size, self.subject));
+            let mut opener = self.subjects.opener();
+            let subject = opener.at(frame.into())?;
+            let light = pipe.size_above_caption().and_then(|size| pipe.light(size, subject));
             let (light, notes) = light.map_err(Failure::of)?;
             Ok((coarse(&light), is_held.then_some((light, notes))))
         };
@@ -273,7 +279,8 @@ impl Film<'_> {
         let mut text = format!("{} {follows}", env!("CARGO_PKG_VERSION"));
         for frame in self.metered(follows) {
             text.push('\n');
-            text += &about(frame, self.pipe(frame))?.metadata(self.subject).comment;
+            let head = about(frame, self.subjects.head(frame.into()))?;
+            text += &about(frame, self.pipe(frame))?.recorded(head).comment;
         }
         Ok(sha256(text.as_bytes()))
     }
@@ -301,7 +308,7 @@ impl Film<'_> {
 
     fn write_file(&self, frame: u32, path: &Path) -> Result<Outcome, Failure> {
         let shot = self.shot(frame)?;
-        let metadata = shot.metadata(self.subject);
+        let metadata = shot.metadata(self.subjects)?;
         if is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
@@ -318,7 +325,10 @@ impl Film<'_> {
     /// The pixels of a frame, and what became of it.
     fn frame(&self, frame: u32, keep: Option<&FrameNames>) -> Result<(Frame, Outcome), Failure> {
         let shot = self.shot(frame)?;
-        let kept = keep.map(|names| (names.path(frame), shot.metadata(self.subject)));
+        let record = |names: &FrameNames| {
+            Ok::<_, Failure>((names.path(frame), shot.metadata(self.subjects)?))
+        };
+        let kept = keep.map(record).transpose()?;
         if let Some((path, metadata)) = &kept
             && is_done(path, metadata)
         {

@@ -40,9 +40,10 @@
 //! error                                     why there is no frame
 //! pipe                                      one after the other, for one frame
 //! timeline  work  frame_files               numbers over time; threads; numbered files
-//! blur                                      frames while a shutter is open
 //! options                                   the options of the programs, as our own
 //! script                                    the command lines and programs of every frame
+//! series                                    panoramas that are opened frame by frame
+//! blur                                      frames while a shutter is open
 //! sight  levels                             what will be in view; frames that are nearly black
 //! keys  exposure                            key frames; exposures that follow the light
 //! film                                      frames, in files or in a film
@@ -76,6 +77,8 @@ mod print;
 mod program;
 #[cfg(feature = "cli")]
 mod script;
+#[cfg(feature = "cli")]
+mod series;
 #[cfg(feature = "cli")]
 mod sight;
 #[cfg(feature = "cli")]

@@ -91,7 +91,10 @@ pub struct PipeArgs {
     #[arg(long, conflicts_with = "warp")]
     pub rays: bool,
 
-    /// Draw views of a panorama, a picture, instead of a scene
+    /// Draw views of a panorama, or of numbered ones, instead of a scene
+    ///
+    /// The name of numbered panoramas has %d or %04d in place of the number, pano_%04d.png: the
+    /// first frame is drawn from the one with the smallest number, and each other from the next.
     #[arg(long)]
     pub warp: bool,
 }
@@ -134,7 +137,7 @@ impl ParsedCommand {
 
 /// Options that a film has itself or does without, because they write something else than a
 /// picture or have no effect.
-const LEFT_OUT: [&str; 8] = ["dt", "dp", "at", "explain", "crop", "pv", "cn", "look"];
+const LEFT_OUT: [&str; 9] = ["dt", "dp", "at", "explain", "needs", "crop", "pv", "cn", "look"];
 
 /// An option as it was given.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -19,6 +19,16 @@ pub enum FilmSubject<'s> {
     Panorama(&'s ugwarp::Opened, &'s [String]),
 }
 
+impl FilmSubject<'_> {
+    /// Comments and files that a picture of it records.
+    pub(crate) fn head(&self) -> Head {
+        match self {
+            Self::Scene(scene) => scene.head.clone(),
+            Self::Panorama(_, files) => Head { files: files.to_vec(), ..Head::default() },
+        }
+    }
+}
+
 /// The light of a frame, and the notes of the programs that drew it.
 pub type DrawnLight = (LinearFrame, Vec<Note>);
 
@@ -60,10 +70,11 @@ impl Pipe {
 
     /// The record in the file of the frame. Of a scene only the comments are used.
     pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
-        let mut head = match subject {
-            FilmSubject::Scene(scene) => scene.head.clone(),
-            FilmSubject::Panorama(_, files) => Head { files: files.to_vec(), ..Head::default() },
-        };
+        self.recorded(subject.head())
+    }
+
+    /// The same with what is recorded of the subject.
+    pub(crate) fn recorded(&self, mut head: Head) -> Metadata {
         head.files.extend(self.files.iter().cloned());
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
         for (filter, line) in filters.iter().zip(&self.lines) {

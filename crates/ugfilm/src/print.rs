@@ -1,7 +1,7 @@
 //! The commands of frames as a script for a shell.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ugimage::Format;
 use ugpipe::Failure;
@@ -10,8 +10,15 @@ use ugsheet::film::FrameNames;
 use crate::film::Film;
 use crate::script::DONE_TO_LIGHT;
 
+/// A path as a word of a command line, which is not an option.
+pub fn argument(path: PathBuf) -> PathBuf {
+    let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
+    if is_option { Path::new(".").join(path) } else { path }
+}
+
 /// The commands of these frames, one in a line. Of a frame with motion blur, those of its moments
-/// after a comment. `input`: the scene, `None` for standard input; `names`: the files of frames.
+/// after a comment. `input`: the scene or panorama of all frames, `None` for standard input;
+/// `names`: the files of frames.
 ///
 /// # Errors
 /// A caption asks for what the frame does not have.
@@ -21,13 +28,14 @@ pub fn script(
     names: &FrameNames,
     input: Option<&Path>,
 ) -> Result<String, Failure> {
+    let own = |moment: f64| film.subjects.file(moment).map(argument);
     let mut text = String::new();
     for frame in frames {
         let file = names.path(frame);
         let Some(moments) = film.moments(frame) else {
             let mut commands = film.script.commands(f64::from(frame), &[])?;
             commands.set_format(film.format);
-            text += &commands.line(input, Some(&file));
+            text += &commands.line(own(frame.into()).as_deref().or(input), Some(&file));
             text.push('\n');
             continue;
         };
@@ -45,7 +53,7 @@ pub fn script(
             let mut commands = film.script.commands(moment, DONE_TO_LIGHT)?;
             commands.set_format(Format::Exr);
             let file = file.with_extension(format!("{row:02}.exr"));
-            text += &commands.line(input, Some(&file));
+            text += &commands.line(own(moment).as_deref().or(input), Some(&file));
             text.push('\n');
         }
     }

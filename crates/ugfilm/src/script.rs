@@ -1,7 +1,7 @@
 //! The command lines of every frame.
 
 use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use ugimage::Format;
@@ -9,6 +9,7 @@ use ugimage::label::number::significant;
 use ugparse::Source;
 use ugpicture::{Output, Unit, Units};
 use ugpipe::{CommonArgs, Context, Failure, shell_pipe, shell_word};
+use ugsheet::film::FrameNames;
 use ugskybox::{SceneSky, SkySource};
 
 use crate::options::{Given, PIPE, ParsedCommand, TOOLS, Tool};
@@ -25,6 +26,12 @@ const VELOCITIES: [&str; 2] = ["vel", "cv"];
 
 /// The options of which every frame has its own text.
 const TEXTS: [&str; 2] = ["cap", "title"];
+
+/// Options that say how a panorama is read, of those that may change over a film.
+const OPENING: [&str; 4] = ["part", "highlights", "infrared-to", "ultraviolet-from"];
+
+/// Options that name pictures, which are numbered as those of the input are.
+const NUMBERED: [&str; 2] = ["infrared", "ultraviolet"];
 
 /// Options for what is done to the light of a picture.
 pub const DONE_TO_LIGHT: &[&str] = &["cap", "title", "lg", "lp", "gr", "dl", "iso", "ex", "tc"];
@@ -47,6 +54,8 @@ pub struct Script {
     pub ease: Ease,
     /// The last frame comes before the first again, so it is not the same.
     pub is_loop: bool,
+    /// The number of the picture of the first frame, of a film of numbered pictures.
+    pub first_picture: Option<u32>,
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,
     options: Vec<Setting>,
@@ -81,6 +90,7 @@ impl Script {
             n_frames,
             ease: Ease::Linear,
             is_loop: false,
+            first_picture: None,
             reading: Vec::new(),
             options: Vec::new(),
             sky: SceneSky::default(),
@@ -235,6 +245,44 @@ impl Script {
         if self.is_loop && time < 0.0 { time.rem_euclid(1.0) } else { time }
     }
 
+    /// The number of the picture of a frame or moment, the nearest one, of a film of numbered
+    /// pictures. In a film that repeats the first one follows the last.
+    pub fn picture(&self, moment: f64) -> Option<u32> {
+        let n_pictures = f64::from(self.n_frames / self.n_rows());
+        let idx = (moment.round() - 1.0).rem_euclid(n_pictures) as u32;
+        self.first_picture.map(|first| first.saturating_add(idx))
+    }
+
+    /// The numbered files that options name for a frame.
+    ///
+    /// # Errors
+    /// See [`Script::commands`].
+    pub fn numbered_files(&self, frame: f64) -> Result<Vec<PathBuf>, Failure> {
+        let is_numbered = |setting: &&Setting| NUMBERED.contains(&setting.name.as_str());
+        let values = self.options.iter().filter(is_numbered).map(|setting| {
+            self.values(setting, frame).map(|values| PathBuf::from(values.concat()))
+        });
+        values.collect()
+    }
+
+    /// True if an option changes that says how a panorama is read.
+    pub fn opens_each(&self) -> bool {
+        OPENING.iter().any(|name| self.get(name).is_some_and(Timeline::is_moving))
+    }
+
+    /// The command of a frame or moment of a panorama without its file, in which all options that
+    /// do not say how it is read are those of the first frame.
+    ///
+    /// # Errors
+    /// See [`Script::commands`].
+    pub fn opening(&self, moment: f64) -> Result<Vec<String>, Failure> {
+        let at = |setting: &Setting| {
+            let name = setting.name.as_str();
+            if OPENING.contains(&name) || NUMBERED.contains(&name) { moment } else { 1.0 }
+        };
+        Ok(self.commands_at(at, &TEXTS)?.0.concat())
+    }
+
     /// The time of an option in a frame.
     fn time_of(&self, name: &str, frame: f64) -> f64 {
         match &self.across {
@@ -325,6 +373,14 @@ impl Script {
             name if TEXTS.contains(&name) => {
                 values.iter().map(|text| self.filled(name, text, frame)).collect()
             }
+            name if NUMBERED.contains(&name) => {
+                let Some(number) = self.picture(frame) else { return Ok(values) };
+                let file = |word: String| match FrameNames::of_path(Path::new(&word)) {
+                    Some(names) => names.path(number).to_string_lossy().into_owned(),
+                    None => word,
+                };
+                Ok(values.into_iter().map(file).collect())
+            }
             _ => Ok(values),
         }
     }
@@ -358,13 +414,22 @@ impl Script {
     /// # Errors
     /// A caption asks for what the frame does not have.
     pub fn commands(&self, frame: f64, left_out: &[&str]) -> Result<Commands, Failure> {
+        self.commands_at(|_| frame, left_out)
+    }
+
+    /// The same with the frame or moment of each option.
+    fn commands_at(
+        &self,
+        frame_of: impl Fn(&Setting) -> f64,
+        left_out: &[&str],
+    ) -> Result<Commands, Failure> {
         let begin = |tool: &&Tool| {
             let first = [tool.name()].into_iter().chain(tool.first_words().iter().copied());
             first.map(str::to_owned).chain(self.reading.clone()).collect()
         };
         let mut commands = Commands(self.tools.iter().map(begin).collect());
         for setting in self.settings(left_out) {
-            let values = self.values(setting, frame)?;
+            let values = self.values(setting, frame_of(setting))?;
             // The first program states the view ahead in the scene.
             let is_stated = setting.name == "va" && self.get("ahead").is_some();
             let owners = &setting.owners;

@@ -7,8 +7,8 @@ use std::thread;
 use rayon::ThreadPoolBuilder;
 use ugpipe::Failure;
 
-/// Computes `n_rows` results and consumes them in order, on this thread. Each thread works on one
-/// row with a pool of its own, and waits when it is so far ahead that results would fill memory.
+/// Computes `n_rows` results, at most `most` at the same time, and consumes them in order, on this
+/// thread. Each thread works on one row with a pool of its own, and waits when it is so far ahead that results would fill memory.
 /// Where this thread is the only worker of the process, it computes the rows itself: for more
 /// threads there is not enough address space. Ends at the first row that fails, after all rows
 /// before it were consumed.
@@ -16,7 +16,7 @@ use ugpipe::Failure;
 /// # Errors
 /// The error of the first row that fails, or of `consume`.
 pub fn in_order<T: Send>(
-    n_rows: usize,
+    (n_rows, most): (usize, usize),
     compute: impl Fn(usize) -> Result<T, Failure> + Sync,
     mut consume: impl FnMut(usize, T) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -24,7 +24,7 @@ pub fn in_order<T: Send>(
         return one_by_one(n_rows, compute, consume);
     }
     let n_threads = rayon::current_num_threads();
-    let n_workers = n_threads.min(n_rows).max(1);
+    let n_workers = n_threads.min(n_rows).min(most).max(1);
     // Rows to compute, each with the sender of its result.
     let (orders, waiting) = mpsc::channel::<(usize, mpsc::Sender<_>)>();
     let waiting = Mutex::new(waiting);
@@ -101,7 +101,7 @@ mod tests {
             n_done.fetch_add(1, Ordering::SeqCst);
             Ok(row * row)
         };
-        in_order(500, compute, |row, value| {
+        in_order((500, usize::MAX), compute, |row, value| {
             most.fetch_max(n_done.load(Ordering::SeqCst) - row, Ordering::SeqCst);
             seen.push(value);
             Ok(())
@@ -112,6 +112,19 @@ mod tests {
     }
 
     #[test]
+    fn no_more_are_computed_at_once() {
+        let (n_running, highest) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let compute = |_| {
+            highest.fetch_max(1 + n_running.fetch_add(1, Ordering::SeqCst), Ordering::SeqCst);
+            thread::sleep(std::time::Duration::from_millis(1));
+            n_running.fetch_sub(1, Ordering::SeqCst);
+            Ok(())
+        };
+        in_order((30, 1), compute, |_, ()| Ok(())).unwrap();
+        assert_eq!(highest.into_inner(), 1);
+    }
+
+    #[test]
     fn the_only_worker_of_the_process_starts_no_thread() {
         let id = || thread::current().id();
         let alone = || {
@@ -119,7 +132,7 @@ mod tests {
                 assert_eq!(worker, id());
                 Ok(())
             };
-            in_order(3, |_| Ok(id()), consume).unwrap();
+            in_order((3, usize::MAX), |_| Ok(id()), consume).unwrap();
         };
         ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(alone);
     }
@@ -128,7 +141,7 @@ mod tests {
     fn the_first_failure_ends_the_work() {
         let mut seen = Vec::new();
         let compute = |row: usize| if row == 7 { Err(Failure::failed("broken")) } else { Ok(row) };
-        let outcome = in_order(1000, compute, |row, _| {
+        let outcome = in_order((1000, usize::MAX), compute, |row, _| {
             seen.push(row);
             Ok(())
         });

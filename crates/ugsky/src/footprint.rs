@@ -85,6 +85,14 @@ impl PlaneEllipse {
         Self { matrix, squares: [small, large] }
     }
 
+    /// The ellipse of a box around a ray, in the plane perpendicular to it, whichever its axes.
+    pub fn of_ray(ray: &SkyRay) -> Self {
+        let axis = ray.direction.any_orthonormal_vector();
+        let other = ray.direction.cross(axis);
+        let along = |axis: DVec3| ray.slopes.map(|slope| slope.dot(axis));
+        Self::new(along(axis), along(other), 1.0)
+    }
+
     /// The matrix of the kernel on a level with texels of this size, and its c; `finest`: the
     /// texels of level 0.
     #[inline(always)]

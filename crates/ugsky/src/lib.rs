@@ -10,6 +10,7 @@
 //! - [`Sampler::light`] is the mean light of the pixel: an elliptical footprint on the sphere, with
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
+//! - A [`Reach`] is the part of a panorama that a picture reads, and how finely.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
 //! - [`SkyColors`] say how colours change; a [`Sky`] is a panorama, stars or both; [`SkyLight`]
 //!   is the light of one in rows of pixels.
@@ -42,6 +43,7 @@ mod observer;
 mod panorama;
 mod pictures;
 mod pyramid;
+mod reach;
 mod sample;
 mod shade;
 mod sky;
@@ -58,6 +60,7 @@ pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError};
 pub use pictures::DecodedPicture;
+pub use reach::{PanoramaPart, Reach, ReachFinder};
 pub use sample::{Sampler, Seen};
 pub use shade::{Shade, SkyColors};
 pub use sky::{Band, Layer, Sky, VISIBLE_NM};

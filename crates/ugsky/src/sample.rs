@@ -81,7 +81,7 @@ impl Panorama {
     }
 }
 
-impl Sampler<'_> {
+impl<'a> Sampler<'a> {
     /// The mean light of a footprint: light times alpha, and alpha. `None` if the footprint is so
     /// large that it has to be divided. `spread`: the variance of the pixel filter along each axis
     /// relative to that of a box.
@@ -147,6 +147,28 @@ impl Sampler<'_> {
     ) -> [f32; 4] {
         self.weigh(level, kernel, center);
         self.sum(level)
+    }
+
+    /// The panorama.
+    pub(crate) fn panorama(&self) -> &'a Panorama {
+        self.panorama
+    }
+
+    /// The texels of a footprint: rows of the level, each with its first and last column.
+    pub(crate) fn texels_read(
+        &mut self,
+        level: usize,
+        kernel: &Kernel,
+        center: DVec3,
+    ) -> impl Iterator<Item = (usize, [usize; 2])> {
+        self.weigh(level, kernel, center);
+        let sky = self.panorama;
+        self.runs.iter().filter_map(move |run| {
+            let row = run.row?;
+            let n = sky.ladder[sky.grids[level].rows[row].ladder].n as i64;
+            let (first, end) = (run.column.max(0), n.min(run.column + run.n as i64));
+            (first < end).then(|| (row, [first as usize, end as usize - 1]))
+        })
     }
 
     /// Computes the weights of all texels of a footprint.

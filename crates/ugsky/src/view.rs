@@ -12,7 +12,11 @@ use crate::shade::Shade;
 const HALF_STEP: f64 = 0.49;
 
 /// How often the footprint of a sample is divided at most, if it is large on the sky.
-const MOST_DIVISIONS: u32 = 24;
+pub(crate) const MOST_DIVISIONS: u32 = 24;
+
+/// The middles of the quarters of a square, in its sides from its middle.
+pub(crate) const QUARTERS: [[f64; 2]; 4] =
+    [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
 
 /// Directions seen by the places of a flat film: corner + x across + y down, of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +43,7 @@ pub struct SkyView {
 impl SkyView {
     /// The ray of a square of the film, `side` samples wide; `None` where the lens shows nothing.
     #[inline(always)]
-    fn ray(
+    pub(crate) fn ray(
         &self,
         seen: impl Fn([f64; 2]) -> Option<DVec3>,
         [x, y]: [f64; 2],
@@ -124,7 +128,7 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
     /// The mean of the four quarters of a square, whose footprint is too large.
     fn divided(&mut self, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
         let mut sum = [0.0_f32; 4];
-        for [right, below] in [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]] {
+        for [right, below] in QUARTERS {
             let quarter = [place[0] + right * side, place[1] + below * side];
             let light = self.part(quarter, 0.5 * side, depth + 1);
             (0..4).for_each(|channel| sum[channel] += 0.25 * light[channel]);

@@ -8,7 +8,10 @@ use ugimage::{Filter, Frame, LinearFrame, Quantizer, display_pixel};
 use ugphysics::luminance;
 use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
-use ugsky::{BasisError, FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyLight, SkyView};
+use ugsky::{
+    BasisError, FlatFilm, Layer, Observer, Panorama, PanoramaPart, Reach, ReachFinder, Sampler,
+    Seen, Sky, SkyLight, SkyView,
+};
 use ugtrace::lens::{Film, Lens};
 
 use crate::picture::SkyPicture;
@@ -228,6 +231,37 @@ impl<'s> Warp<'s> {
         let n_covered = pixels.par_iter().filter(|pixel| pixel[3] > 0.0).count() as u64;
         let statistics = Statistics { max_light: 0.0, n_covered, n_negative: 0 };
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
+    }
+
+    /// The panorama, and the part of it that the picture reads, with the sides of a pixel of the
+    /// picture. `None` if it reads nothing, or there are only stars.
+    pub fn part(&self, progress: &dyn Progress) -> Option<(&'s Panorama, PanoramaPart)> {
+        let panorama = self.panorama.as_ref().or(self.bands.first())?.panorama;
+        let [columns, rows] = self.size.map(|side| (side * self.samples) as usize);
+        let n_bands = rows.div_ceil(BAND);
+        progress.step("measuring", n_bands as u64);
+        let reach_of_band = |band: usize| {
+            let mut finder = ReachFinder {
+                view: &self.view,
+                film: |place: [f64; 2]| self.sight(place),
+                sampler: &mut panorama.sampler(),
+                reach: Reach::new(panorama),
+            };
+            if !progress.is_stopped() {
+                for row in band * BAND..rows.min((band + 1) * BAND) {
+                    (0..columns).for_each(|column| {
+                        finder.add([column, row].map(|at| at as f64 + 0.5));
+                    });
+                }
+            }
+            progress.done(1);
+            finder.reach
+        };
+        let reaches = (0..n_bands).into_par_iter().map(reach_of_band);
+        let reach = reaches.reduce(|| Reach::new(panorama), |sum, reach| sum.and(&reach));
+        let part = reach.part(panorama)?;
+        let sides = part.sides.map(|side| side * f64::from(self.samples));
+        Some((panorama, PanoramaPart { sides, ..part }))
     }
 
     /// The surfaces at the middles of pixels, for channels and legends: light that was

@@ -29,6 +29,7 @@ use ugtrace::lens::Lens;
 
 use crate::config::Config;
 use crate::error::Error;
+use crate::needs::needs;
 use crate::render::{PROVENANCE, metadata, run};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
@@ -81,6 +82,13 @@ pub struct Args {
           allow_hyphen_values = true, value_parser = finite)]
     part: Option<Vec<f64>>,
 
+    /// Print which part of the panorama the picture needs, and draw nothing
+    ///
+    /// The angles and pixels that it reads at its speed, how many pixels of the panorama one of the
+    /// picture is wide, and how large a whole panorama has one for each.
+    #[arg(long)]
+    needs: bool,
+
     #[command(flatten, next_help_heading = COLOR)]
     shift: ShiftArgs,
 
@@ -89,7 +97,7 @@ pub struct Args {
     /// A picture has three numbers per colour and no infrared or ultraviolet light, so its spectra
     /// are an assumption. mixture: daylight on mixtures of white and pure colours, for photographs.
     /// Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies -sp.
-    #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
+    #[arg(long, num_args = 1..=33, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,
 
@@ -271,19 +279,43 @@ impl Args {
     /// A file that cannot be read, is no panorama or no list of stars, or options that do not suit
     /// it.
     pub fn open(&self, input: &Input, context: &Context) -> Result<Opened, Failure> {
+        let mut opened = self.open_input(input, context)?;
+        self.open_others(&mut opened, context)?;
+        Ok(opened)
+    }
+
+    /// The part of [`Args::open`] that reads the input and what belongs to it: other sides of a
+    /// cube, infrared and ultraviolet light.
+    ///
+    /// # Errors
+    /// See [`Args::open`].
+    pub fn open_input(&self, input: &Input, context: &Context) -> Result<Opened, Failure> {
         let is_list = is_star_list(&input.name, &input.text);
         if !is_list && self.stars.is_none() && (self.star_width.is_some() || self.white.is_some()) {
             return Err(Failure::usage(
                 "there are no stars: leave out --star-width and --white, or give --stars LIST",
             ));
         }
-        let mut opened = if is_list {
-            self.refuse_for_stars()?;
-            let StarList { stars, notes } = stars(input)?;
-            Opened { stars, notes, ..Opened::default() }
-        } else {
-            self.open_panorama(input, context)?
-        };
+        if !is_list {
+            return self.open_panorama(input, context);
+        }
+        self.refuse_for_stars()?;
+        let StarList { stars, notes } = stars(input)?;
+        Ok(Opened { stars, notes, ..Opened::default() })
+    }
+
+    /// The files that [`Args::open_input`] reads beside the input, in this order.
+    pub fn files_of_input(&self) -> impl Iterator<Item = &Path> {
+        let bands = self.bands().map(|(path, _)| path);
+        self.files.iter().chain(bands).map(PathBuf::as_path)
+    }
+
+    /// The part of [`Args::open`] that reads the list of stars before a panorama and the scene of
+    /// the camera.
+    ///
+    /// # Errors
+    /// See [`Args::open`].
+    pub fn open_others(&self, opened: &mut Opened, context: &Context) -> Result<(), Failure> {
         if let Some(path) = &self.stars {
             let input = context.input_file(path)?;
             let StarList { stars, notes } = stars(&input)?;
@@ -293,7 +325,7 @@ impl Args {
         if let Some(path) = &self.scene {
             opened.scene = Some(Box::new(self.scene(path, context)?));
         }
-        Ok(opened)
+        Ok(())
     }
 
     /// Reads the scene that the camera is taken from.
@@ -416,6 +448,25 @@ impl Args {
         self.highlights.map(|stops| libm::exp2(stops) as f32)
     }
 
+    /// Writes which part of the panorama a picture needs.
+    fn write_needs(
+        &self,
+        opened: &Opened,
+        config: &Config,
+        context: &mut Context,
+    ) -> Result<(), Failure> {
+        if opened.panorama.is_none() && opened.bands.is_empty() {
+            return Err(Failure::usage("a list of stars has no pixels: leave out --needs"));
+        }
+        opened.notes.iter().for_each(|note| context.note(note));
+        let found = needs(opened, config, &context.steps()).map_err(Failure::of)?;
+        let has_pixels = self.from.is_none_or(|kind| kind == Arrangement::Equirectangular);
+        match found {
+            Some(needs) => context.write_text(&needs.text(has_pixels)),
+            None => context.write_text("the picture shows no part of the panorama\n"),
+        }
+    }
+
     /// The angles that the panorama shows.
     fn extent(&self) -> Option<Extent> {
         let [west, east, south, north]: [f64; 4] = self.part.as_deref()?.try_into().ok()?;
@@ -431,9 +482,14 @@ impl Args {
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
     config.check().map_err(Failure::of)?;
-    refuse_terminal(config.picture.output.format(), context)?;
+    if !args.needs {
+        refuse_terminal(config.picture.output.format(), context)?;
+    }
     let input = context.input()?;
     let opened = args.open(&input, context)?;
+    if args.needs {
+        return args.write_needs(&opened, &config, context);
+    }
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let metadata = metadata(&context.take_record(&input), provenance);
@@ -455,7 +511,7 @@ fn basis(words: &[String]) -> Result<Basis, Failure> {
         (_, kelvins) => {
             let given = match kelvins.len() {
                 0 => String::new(),
-                n => format!("; {n} of them are given"),
+                n => format!(", and {n} {} given", if n == 1 { "is" } else { "are" }),
             };
             Err(Failure::Usage(format!(
                 "`{}` is no basis: --basis takes mixture or three temperatures{given}",

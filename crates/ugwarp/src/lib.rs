@@ -10,6 +10,7 @@
 //!   them; [`read_stars`] reads a list of stars.
 //! - [`render`] draws a panorama, stars or both as a picture; [`light`] returns linear light
 //!   instead.
+//! - [`needs`] says which part of a panorama a picture needs, and how large it should be.
 //! - [`Warp`] is a picture's map to a sky, and the light of its velocity.
 //!
 //! # Modules
@@ -19,6 +20,7 @@
 //! ```text
 //! error  config                             errors; options
 //! render                                    from a panorama to a picture, with messages
+//! needs                                     which part of a panorama a picture needs
 //! cli                                       the command line
 //! ```
 //!
@@ -46,12 +48,14 @@
 mod cli;
 mod config;
 mod error;
+mod needs;
 mod render;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw};
 pub use config::Config;
 pub use error::Error;
+pub use needs::{Needs, needs};
 pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::{
@@ -61,7 +65,8 @@ pub use ugpicture::{
 pub use ugscene::CameraOptions;
 pub use ugscene::Provenance;
 pub use ugsky::{
-    ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, StarOptions, Texels,
+    ALL_NM, Arrangement, Band, Basis, Extent, Panorama, PanoramaPart, Sky, Star, StarOptions,
+    Texels,
 };
 pub use ugskybox::{OpenError, Opened, StarList, Warp, is_star_list, open, read_stars};
 pub use ugtrace::lens::Lens;

@@ -145,7 +145,7 @@ pub fn render_opened(
 }
 
 /// The options with the camera of a scene.
-fn seen_from<'c>(opened: &Opened, config: &'c Config) -> Result<Cow<'c, Config>, Error> {
+pub(crate) fn seen_from<'c>(opened: &Opened, config: &'c Config) -> Result<Cow<'c, Config>, Error> {
     let carried = |scene: &Scene| config.with_camera_of(scene).map(Cow::Owned);
     opened.scene.as_deref().map_or(Ok(Cow::Borrowed(config)), carried)
 }
@@ -171,18 +171,22 @@ pub fn run(
 }
 
 /// All that a picture needs but the light of the sky.
-struct Prepared<'s> {
+pub(crate) struct Prepared<'s> {
     /// Options of the picture without its annotations.
     config: Config,
     canvas: Canvas,
     picture: SkyPicture,
-    warp: Warp<'s>,
+    pub(crate) warp: Warp<'s>,
     /// The camera was parallel to its up direction.
     is_up_replaced: bool,
 }
 
 impl<'s> Prepared<'s> {
-    fn new(sky: Sky<'s>, config: &Config, progress: &dyn Progress) -> Result<Self, Error> {
+    pub(crate) fn new(
+        sky: Sky<'s>,
+        config: &Config,
+        progress: &dyn Progress,
+    ) -> Result<Self, Error> {
         config.check()?;
         let mut config = config.clone();
         let canvas = Canvas::new(&config.picture)?;

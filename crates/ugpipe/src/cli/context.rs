@@ -123,6 +123,13 @@ impl Context {
         Self { files: Some(files), ..Self::new(common, Messages::silent(), String::new()) }
     }
 
+    /// The context of a program that another one calls for a part of its output, such as a frame of
+    /// a film, on any thread: it reads files of the system and prints no messages. `given`: the
+    /// content of the input, if it was read before.
+    pub fn called(common: &CommonArgs, given: Option<Input>) -> Self {
+        Self { given, ..Self::new(common, Messages::silent(), String::new()) }
+    }
+
     /// The files of a program that ran in memory.
     pub fn into_files(self) -> Vec<Input> {
         self.files.unwrap_or_default()

@@ -41,7 +41,7 @@ pub type FootageFrames<'f> = Box<dyn Iterator<Item = Result<(Frame, Metadata), F
 
 /// True for the name of numbered files, and for a folder.
 pub fn names_frames(path: &Path) -> bool {
-    path.is_dir() || (!path.exists() && FrameNames::new(&path.to_string_lossy()).is_some())
+    path.is_dir() || FrameNames::of_path(path).is_some()
 }
 
 /// True for a file with a film.
@@ -243,53 +243,45 @@ fn file_name(path: &Path) -> String {
 /// The files of a film in the order of their numbers: those of a pattern, or the PNG files of a
 /// folder.
 fn frame_paths(path: &Path, names: Option<&FrameNames>) -> io::Result<Vec<PathBuf>> {
-    let first = names.map(|names| names.path(1));
-    let folder = first.as_deref().map_or(Some(path), Path::parent);
-    let folder = folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let is_one = |path: &PathBuf| {
-        let name = file_name(path);
-        let is_own = |names: &FrameNames| {
-            names.number(&name).is_some_and(|n| names.path(n).ends_with(&name))
+    let none = |expected: &Path| {
+        Err(io::Error::other(format!("There are no frames, such as {}", expected.display())))
+    };
+    if let Some(names) = names {
+        let numbers = names.numbers_found()?;
+        if numbers.is_empty() {
+            return none(&names.path(1));
+        }
+        return match numbers.windows(2).find(|pair| pair[1] - pair[0] > 1) {
+            None => Ok(numbers.into_iter().map(|number| names.path(number)).collect()),
+            Some(pair) => Err(io::Error::other(format!(
+                "Frame {} is missing: draw it first",
+                names.path(pair[0] + 1).display()
+            ))),
         };
-        let is_png = || name.ends_with(".png") && !name.starts_with('.');
-        names.map_or_else(is_png, is_own) && path.is_file()
+    }
+    let is_png = |path: &PathBuf| {
+        let name = file_name(path);
+        name.ends_with(".png") && !name.starts_with('.') && path.is_file()
     };
     let mut paths =
-        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
-    paths.retain(is_one);
+        fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
+    paths.retain(is_png);
     // A longer number is a greater one.
     paths.sort_by_cached_key(|path| (file_name(path).len(), file_name(path)));
-    let Some(first_path) = paths.first() else {
-        let expected =
-            first.map_or_else(|| "frame_0001.png".to_owned(), |first| first.display().to_string());
-        return Err(io::Error::other(format!("There are no frames, such as {expected}")));
-    };
+    let Some(first) = paths.first() else { return none(Path::new("frame_0001.png")) };
     let before = |path: &Path| {
         file_name(path).trim_end_matches(".png").trim_end_matches(char::is_numeric).len()
     };
-    let is_other = |path: &PathBuf| {
-        file_name(path).get(..before(path)) != file_name(first_path).get(..before(first_path))
+    let is_other = |path: &&PathBuf| {
+        file_name(path).get(..before(path)) != file_name(first).get(..before(first))
     };
-    let Some(names) = names else {
-        return match paths.iter().find(|path| is_other(path)) {
-            None => Ok(paths),
-            Some(other) => Err(io::Error::other(format!(
-                "{} is not a frame of the film of {}: name its frames, as {}",
-                other.display(),
-                first_path.display(),
-                folder.join("frame_%04d.png").display()
-            ))),
-        };
-    };
-    let first = names.number(&file_name(first_path)).unwrap_or(1);
-    match (first..)
-        .zip(&paths)
-        .find(|(number, path)| !path.ends_with(file_name(&names.path(*number))))
-    {
+    match paths.iter().find(is_other) {
         None => Ok(paths),
-        Some((number, _)) => Err(io::Error::other(format!(
-            "Frame {} is missing: draw it first",
-            names.path(number).display()
+        Some(other) => Err(io::Error::other(format!(
+            "{} is not a frame of the film of {}: name its frames, as {}",
+            other.display(),
+            first.display(),
+            path.join("frame_%04d.png").display()
         ))),
     }
 }

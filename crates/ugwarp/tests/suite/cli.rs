@@ -77,9 +77,10 @@ fn mistakes_have_answers() {
     check(
         "--basis 5000",
         2,
-        "`5000` is no basis: --basis takes mixture or three temperatures; 1 of",
+        "`5000` is no basis: --basis takes mixture or three temperatures, and 1 is given",
     );
-    check("--basis 5000 6000 sky.png", 2, "three temperatures; 2 of them are given");
+    check("--basis 5000 6000 sky.png", 2, "three temperatures, and 2 are given");
+    check("--basis 3500 5900 10000 20000 sky.png", 2, "three temperatures, and 4 are given");
     check("--basis 5000 5000 9000", 2, "are no basis of colours");
     check("-part 10 -10 0 20", 2, "must increase from west to east");
     check("-vc 0 0 0", 1, "no direction to look in");

@@ -5,5 +5,6 @@
 mod cli;
 mod laws;
 mod motion;
+mod needs;
 mod open;
 mod stars;
