@@ -83,7 +83,7 @@ impl Shot {
         if !is_made_of_light(&self.frame.picture, subject) {
             // The scene of the frame's own moment is drawn for its annotations.
             let mut frame = self.frame.clone();
-            frame.picture.light = Some(Arc::new(self.mean(canvas.options().size, subject)?));
+            frame.picture.light = Some(Arc::new(self.mean(canvas.options(), subject)?));
             let (mut picture, notes) = frame.draw(subject)?;
             let Metadata { camera, per_inch, .. } = std::mem::take(&mut picture.metadata);
             picture.metadata = Metadata { camera, per_inch, ..metadata };
@@ -91,7 +91,7 @@ impl Shot {
         }
         let (frame, mut notes) = match light {
             Some(light) => light,
-            None => (self.mean(canvas.options().size, subject)?, Vec::new()),
+            None => (self.mean(canvas.options(), subject)?, Vec::new()),
         };
         let drawn = Drawn::<Error> {
             content: DrawnContent::Light { frame, is_clipped: false },
@@ -108,10 +108,10 @@ impl Shot {
     }
 
     /// The mean light of all moments.
-    fn mean(&self, size: [u32; 2], subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
+    fn mean(&self, scene: &PictureOptions, subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
         let mut sum = Sum::default();
         for moment in &self.moments {
-            sum.add(&moment.light(size, subject)?.0);
+            sum.add(&moment.light(scene, subject)?.0);
         }
         Ok(sum.mean())
     }

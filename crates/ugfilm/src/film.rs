@@ -223,7 +223,7 @@ impl Film<'_> {
         let measure = |frame| {
             let pipe = self.pipe(frame)?;
             let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
-            let light = pipe.size_above_caption().and_then(|size| pipe.light(size, self.subject));
+            let light = pipe.scene_options().and_then(|scene| pipe.light(&scene, self.subject));
             let (light, notes) = light.map_err(Failure::of)?;
             Ok((coarse(&light), is_held.then_some((light, notes))))
         };
