@@ -4,7 +4,8 @@
 #   scenes/motion.sh [OUTDIR [FRAMES [WIDTH [NAME...]]]]        default: films 250 1280, all of them
 #
 # Frames are kept in OUTDIR/NAME/, so an interrupted run goes on where it stopped. Each film is an MP4
-# file where there is ffmpeg, otherwise an animated PNG, with a contact sheet beside it.
+# file where there is ffmpeg, otherwise an animated PNG, with a contact sheet beside it. On two cores
+# all take about three hours, a sixteenth of that with WIDTH 320.
 set -euo pipefail
 export LC_ALL=C
 

@@ -105,7 +105,7 @@ impl Shot {
         if !is_made_of_light(&self.frame.picture, subjects) {
             // The scene of the frame's own moment is drawn for its annotations.
             let mut frame = self.frame.clone();
-            frame.picture.light = Some(Arc::new(self.mean(canvas.options().size, opener)?));
+            frame.picture.light = Some(Arc::new(self.mean(canvas.options(), opener)?));
             let (mut picture, notes) = frame.draw(opener.at(moment)?).map_err(Failure::of)?;
             let Metadata { camera, per_inch, .. } = std::mem::take(&mut picture.metadata);
             picture.metadata = Metadata { camera, per_inch, ..metadata };
@@ -113,7 +113,7 @@ impl Shot {
         }
         let (frame, mut notes) = match light {
             Some(light) => light,
-            None => (self.mean(canvas.options().size, opener)?, Vec::new()),
+            None => (self.mean(canvas.options(), opener)?, Vec::new()),
         };
         let drawn = Drawn::<Error> {
             content: DrawnContent::Light { frame, is_clipped: false },
@@ -130,10 +130,14 @@ impl Shot {
     }
 
     /// The mean light of all moments.
-    fn mean(&self, size: [u32; 2], opener: &mut Opener<'_>) -> Result<LinearFrame, Failure> {
+    fn mean(
+        &self,
+        scene: &PictureOptions,
+        opener: &mut Opener<'_>,
+    ) -> Result<LinearFrame, Failure> {
         let mut sum = Sum::default();
         for (moment, pipe) in &self.moments {
-            sum.add(&pipe.light(size, opener.at(*moment)?).map_err(Failure::of)?.0);
+            sum.add(&pipe.light(scene, opener.at(*moment)?).map_err(Failure::of)?.0);
         }
         Ok(sum.mean())
     }

@@ -229,7 +229,7 @@ impl Film<'_> {
             let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
             let mut opener = self.subjects.opener();
             let subject = opener.at(frame.into())?;
-            let light = pipe.size_above_caption().and_then(|size| pipe.light(size, subject));
+            let light = pipe.scene_options().and_then(|scene| pipe.light(&scene, subject));
             let (light, notes) = light.map_err(Failure::of)?;
             Ok((coarse(&light), is_held.then_some((light, notes))))
         };

@@ -122,21 +122,26 @@ impl Pipe {
         Ok((picture, notes))
     }
 
-    /// The size of the frame without the rows of a caption.
+    /// The options of the part of the frame with the scene, without a caption and legend.
     ///
     /// # Errors
     /// See [`Canvas::new`].
-    pub fn size_above_caption(&self) -> Result<[u32; 2], Error> {
-        Ok(Canvas::new(&self.picture)?.options().size)
+    pub fn scene_options(&self) -> Result<PictureOptions, Error> {
+        Ok(Canvas::new(&self.picture)?.options().clone())
     }
 
-    /// The light of the frame in this size, without exposure and annotations.
+    /// The light of the frame without exposure and annotations. `scene`: the options of the part
+    /// of the frame that shows it.
     ///
     /// # Errors
     /// See [`Pipe::draw`].
-    pub fn light(&self, size: [u32; 2], subject: FilmSubject<'_>) -> Result<DrawnLight, Error> {
+    pub fn light(
+        &self,
+        scene: &PictureOptions,
+        subject: FilmSubject<'_>,
+    ) -> Result<DrawnLight, Error> {
         let mut pipe = self.clone();
-        pipe.picture.size = size;
+        (pipe.picture.size, pipe.picture.camera.part) = (scene.size, scene.camera.part);
         pipe.picture.keep_light();
         let (picture, notes) = pipe.draw(subject)?;
         Ok((picture.into_light().ok_or(Error::NoPixels)?, notes))

@@ -2,6 +2,7 @@
 //! drawn, and a camera that follows.
 
 use ugimage::Format;
+use ugpicture::{Canvas, PictureOptions};
 use ugpipe::Failure;
 use ugscene::{
     BodyBoxes, CameraOptions, MotionError, MotionOptions, Scene, SeenBoxes, TimesInView,
@@ -46,15 +47,17 @@ struct Shown {
 impl Shown {
     /// `None` of a panorama.
     fn new(pipe: &Pipe) -> Option<Self> {
-        let size = pipe.picture.size;
+        let canvas = Canvas::new(&pipe.picture).ok()?;
+        let PictureOptions { size, camera: ref shown, .. } = *canvas.options();
         pipe.programs().iter().find_map(|program| {
             let motion = program.motion()?;
             let (camera, is_flat) = match program {
                 Program::Lorentz(config) => {
-                    (CameraOptions { eye: config.eye, ..config.camera.clone() }, true)
+                    let (eye, part) = (config.eye, shown.part);
+                    (CameraOptions { eye, part, ..config.camera.clone() }, true)
                 }
                 Program::Photon(config) => (
-                    pipe.picture.camera.clone(),
+                    shown.clone(),
                     config.lens == Lens::Pinhole
                         && config.stereo.is_none()
                         && config.crop.is_none(),

@@ -81,8 +81,8 @@ pub struct Args {
     /// Remove faces that are outside the view of the camera
     ///
     /// Parts of other faces outside the view are not subdivided. The picture stays the same if
-    /// ugrainbow is given the same -va and -sz. If the scene has a camera, it or -vc must give the
-    /// view centre.
+    /// ugrainbow is given the same -va and -sz, but for the margins of the view beside a legend or
+    /// above a caption. If the scene has a camera, it or -vc must give the view centre.
     #[arg(long = "cull", help_heading = CAMERA)]
     cull: bool,
 

@@ -222,8 +222,8 @@ pub struct AnnotationArgs {
 
     /// Caption below the picture, wrapped as needed; line breaks are kept
     ///
-    /// -sz is the size of the whole picture, so title, caption and legend leave fewer rows for the
-    /// scene; with -lp beside only the title takes rows.
+    /// -sz is the size of the whole picture, whose view is made smaller for title, caption and
+    /// legend, so that they hide nothing; a narrower -va makes it larger.
     #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
     cap: Option<String>,
 
@@ -237,8 +237,8 @@ pub struct AnnotationArgs {
 
     /// Place of caption, legend and scale: below, beside, or over a corner, as top-left
     ///
-    /// Beside it they leave fewer columns for the scene; in a corner (top-left, top-right,
-    /// bottom-left, bottom-right) they leave all of it, and cover a part.
+    /// Below and beside it they leave a smaller picture with all of the view; in a corner (top-left,
+    /// top-right, bottom-left, bottom-right) the picture keeps its size, and they cover a part.
     #[arg(long, value_name = "PLACE", visible_alias = "legend-place", value_parser = ugpipe::one_of("places", Place::NAMES),
           help_heading = ANNOTATIONS)]
     lp: Option<Place>,
@@ -271,7 +271,8 @@ pub struct AnnotationArgs {
 
     /// Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of -sz]
     ///
-    /// The default is at least 9 pixels, and 6 points if -sz has units of length.
+    /// The default is at least 9 pixels, 12 where that is at most 1/32 of the mean, and 6 points if
+    /// -sz has units of length.
     #[arg(long, value_name = "PIXELS", visible_alias = "text-size", value_parser = number(text_size),
           help_heading = ANNOTATIONS)]
     ts: Option<f64>,

@@ -50,9 +50,6 @@ pub enum Note {
     /// A caption or title has a number by its name, which is known in films.
     #[error("only captions and titles of films have numbers in place of {{beta}}, {{t}} ...")]
     UnknownNumber,
-    /// A body that a picture of the whole size shows is cut.
-    #[error("title, caption or legend take rows from the picture, which cut off a part of a body")]
-    CutByText,
     /// Rays do not meet wires.
     #[error("wires are left out: rays do not meet lines")]
     NoWires,

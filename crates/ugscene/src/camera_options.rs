@@ -26,6 +26,9 @@ pub struct CameraOptions {
     /// The view of a camera that moves is that of a camera at rest, aberrated (`--ahead`): the
     /// options above state it at rest.
     pub is_ahead: bool,
+    /// The fractions of the picture's width and height that its scene fills, if text stands beside
+    /// or below it: the view of the whole picture is in that part, with more around it.
+    pub part: Option<[f64; 2]>,
 }
 
 /// Why a camera is invalid.
@@ -89,10 +92,17 @@ impl Film {
         if !(min_x < max_x && min_y < max_y) {
             return Err(CameraError::FilmRectangle);
         }
-        let [width, height] = samples.map(f64::from);
-        let samples = [width / (max_x - min_x), height / (max_y - min_y)];
+        let part = options.part.unwrap_or([1.0; 2]);
+        let [width, height] = [0, 1].map(|side| f64::from(samples[side]) / part[side]);
+        // From the whole picture to its part.
+        let scale = part[0].min(part[1]);
+        let margin = |whole: f64, part: f64| 0.5 * whole * (part - scale);
+        let samples = [width / (max_x - min_x), height / (max_y - min_y)].map(|side| scale * side);
         // Film coordinates run up, rows run down.
-        let axis = [(0.5 - min_x) * samples[0], (max_y - 0.5) * samples[1]];
+        let axis = [
+            margin(width, part[0]) + (0.5 - min_x) * samples[0],
+            margin(height, part[1]) + (max_y - 0.5) * samples[1],
+        ];
         let half_width = match options.view_angle {
             Some((across, _)) => half_side(across)?,
             None => half_width_of(camera)?,

@@ -92,6 +92,7 @@ impl CameraArgs {
             view_angle: self.va.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
             is_orthographic: self.og,
             is_ahead: false,
+            part: None,
         }
     }
 }

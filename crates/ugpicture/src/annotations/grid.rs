@@ -9,7 +9,7 @@ use ugimage::figure::Point;
 use ugimage::label::number::significant;
 use ugimage::label::{DESCENT, Drawing, Line, MissingCharacter};
 
-use super::labels::is_apart;
+use super::labels::{Rectangle, is_free};
 use super::seen::SeenScene;
 use super::style::Style;
 use crate::error::Error;
@@ -26,11 +26,13 @@ const MOST: f64 = 100.0;
 /// Size of the numbers relative to that of a caption.
 const TEXT: f64 = 0.8;
 
-/// Draws the visible parts of the grid. Returns a note.
+/// Draws the visible parts of the grid. Returns a note. `taken`: the boxes of text in the picture,
+/// to which those of its numbers are added.
 pub fn draw<E: From<Error>>(
     seen: &SeenScene<'_, E>,
     units: &Units,
     style: &Style,
+    taken: &mut Vec<Rectangle>,
     drawing: &mut Drawing,
 ) -> Result<Option<Note>, E> {
     let Some(grid) = GroundGrid::new(seen, units.length()) else { return Ok(None) };
@@ -46,6 +48,7 @@ pub fn draw<E: From<Error>>(
     for axis in 0..2 {
         labels.draw(axis, drawing).map_err(Error::from)?;
     }
+    taken.append(&mut labels.boxes);
     let [step, level] = [grid.step, grid.level].map(|length| grid.written(length, 4));
     Ok(Some(Note::Grid { step: (!lines.is_empty()).then_some(step), level }))
 }
@@ -106,11 +109,6 @@ impl GroundGrid {
             DVec3::new(across, along, self.level)
         }
     }
-}
-
-/// True if a box overlaps none of the others.
-fn is_free(place: [Point; 2], others: &[[Point; 2]]) -> bool {
-    others.iter().all(|other| is_apart(&place, other))
 }
 
 /// The depth of the ground in the lower part of the picture, or that of the view centre if it is
@@ -184,10 +182,10 @@ impl<E: From<Error>> Labels<'_, E> {
             // Where a line leaves the picture, its number is placed on the line.
             let direction = if is_whole { outward } else { outward.map(|part| -part) };
             let place = self.place(&line, spot, direction);
-            if !is_free(place, &self.boxes[first..]) {
+            if !is_free(&place, &self.boxes[first..]) {
                 break;
             }
-            if !self.is_inside(place) || !is_free(place, &self.boxes[..first]) {
+            if !self.is_inside(place) || !is_free(&place, &self.boxes[..first]) {
                 continue;
             }
             is_named = true;

@@ -1,12 +1,11 @@
 //! Lines along which a quantity of what is seen has the same value.
 
-use std::ops::Range;
-
 use ugimage::figure::Point;
 use ugimage::label::{Drawing, Line, MissingCharacter};
 use ugphysics::length;
 use ugscene::{BodyId, Scene};
 
+use super::labels::{Rectangle, is_free};
 use super::map::Scale;
 use super::style::Style;
 use crate::emission::SeenItem;
@@ -28,18 +27,27 @@ struct Seen {
     distance: f64,
 }
 
-/// Draws the lines of a picture `size` pixels large, and a number on each. `item`: what is seen at
-/// the middles of pixels, row after row.
+/// What is seen in a picture.
+pub struct Field<'a> {
+    /// Its pixels across and down.
+    pub size: [u32; 2],
+    /// The scene, if there is one.
+    pub scene: Option<&'a Scene>,
+    /// What is seen at the middles of pixels, row after row.
+    pub item: &'a dyn Fn(usize) -> Option<SeenItem>,
+}
+
+/// Draws the lines, and a number on each where there is room. `taken`: the parts of the picture
+/// that other text covers, to which those of the numbers are added.
 ///
 /// # Errors
 /// Never, because the font has all its characters.
 pub fn draw(
     options: &IsoOptions,
     units: &Units,
-    size: [u32; 2],
-    scene: Option<&Scene>,
-    item: &dyn Fn(usize) -> Option<SeenItem>,
+    &Field { size, scene, item }: &Field<'_>,
     style: &Style,
+    taken: &mut Vec<Rectangle>,
     drawing: &mut Drawing,
 ) -> Result<(), MissingCharacter> {
     let [width, height] = size.map(|side| side as usize);
@@ -56,6 +64,7 @@ pub fn draw(
     if values.is_empty() {
         values = scale.ticks().into_iter().map(|(value, _)| value).collect();
     }
+    let mut all_lines = Vec::new();
     for value in values {
         let mut lines = Vec::new();
         for row in 1..height {
@@ -75,22 +84,23 @@ pub fn draw(
                 push_lines(corners.map(|seen| seen.value - value), upper_left, &mut lines);
             }
         }
-        if lines.is_empty() {
-            continue;
+        if !lines.is_empty() {
+            drawing.lines(lines.clone(), 3.0 * style.hairline, style.background);
+            drawing.lines(lines.clone(), 1.2 * style.hairline, style.ink);
+            all_lines.push((value, lines));
         }
+    }
+    // No line is drawn over a number.
+    for (value, lines) in all_lines {
         let line = Line::new(&scale.written(value), TEXT * style.size)?;
         let half = [0.5 * line.width() + 0.15 * style.size, 0.45 * style.size];
-        let label =
-            middle(&lines, [0, 1].map(|axis| half[axis]..f64::from(size[axis]) - half[axis]));
-        drawing.lines(lines.clone(), 3.0 * style.hairline, style.background);
-        drawing.lines(lines, 1.2 * style.hairline, style.ink);
-        drawing.rectangle(
-            [label[0] - half[0], label[1] - half[1]],
-            [label[0] + half[0], label[1] + half[1]],
-            style.background,
-        );
-        let base = label[1] + 0.29 * style.size;
-        drawing.text(&line, [label[0] - 0.5 * line.width(), base], style.ink);
+        let Some(label @ [low, high]) = free_place(&lines, half, size.map(f64::from), taken) else {
+            continue;
+        };
+        taken.push(label);
+        drawing.rectangle(low, high, style.background);
+        let base = 0.5 * (low[1] + high[1]) + 0.29 * style.size;
+        drawing.text(&line, [0.5 * (low[0] + high[0] - line.width()), base], style.ink);
     }
     Ok(())
 }
@@ -122,20 +132,34 @@ fn push_lines(values: [f64; 4], [left, top]: Point, lines: &mut Vec<[Point; 2]>)
     }
 }
 
-/// The middle of the line that is nearest to the mean of all, of those in an area if there are
-/// some.
-fn middle(lines: &[[Point; 2]], area: [Range<f64>; 2]) -> Point {
+/// The box of a number with these half sides: around the middle of the piece that is nearest to the
+/// mean of all, of those that leave it in the picture if there are some. `None` where other text
+/// is everywhere.
+fn free_place(
+    lines: &[[Point; 2]],
+    half: [f64; 2],
+    picture: [f64; 2],
+    taken: &[Rectangle],
+) -> Option<Rectangle> {
     let middle = |[a, b]: &[Point; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     let n = lines.len() as f64;
     let mean =
         lines.iter().map(middle).fold([0.0; 2], |sum, at| [sum[0] + at[0] / n, sum[1] + at[1] / n]);
     let apart =
         |at: &Point| (at[0] - mean[0]) * (at[0] - mean[0]) + (at[1] - mean[1]) * (at[1] - mean[1]);
-    let is_outside = |at: &Point| !(area[0].contains(&at[0]) && area[1].contains(&at[1]));
+    let around = |at: &Point| {
+        let corner = |sign: f64| [0, 1].map(|axis| at[axis] + sign * half[axis]);
+        [corner(-1.0), corner(1.0)]
+    };
+    let is_outside = |at: &Point| {
+        let [low, high] = around(at);
+        !(0..2).all(|axis| low[axis] >= 0.0 && high[axis] < picture[axis])
+    };
     let order = |a: &Point, b: &Point| {
         is_outside(a).cmp(&is_outside(b)).then(apart(a).total_cmp(&apart(b)))
     };
-    lines.iter().map(middle).min_by(order).unwrap_or(mean)
+    let free = lines.iter().map(middle).filter(|at| is_free(&around(at), taken));
+    free.min_by(order).map(|at| around(&at))
 }
 
 #[cfg(test)]
@@ -155,5 +179,19 @@ mod tests {
             });
             assert!(!crosses_middle, "{lines:?}");
         }
+    }
+
+    /// The number of a second line through the same places is beside that of the first, or there is
+    /// none.
+    #[test]
+    fn numbers_are_apart() {
+        let lines: Vec<_> =
+            (0..40).map(|x| [[f64::from(x), 9.0], [f64::from(x + 1), 9.0]]).collect();
+        let place = |taken: &[Rectangle]| free_place(&lines, [5.0, 3.0], [40.0, 20.0], taken);
+        let first = place(&[]).unwrap();
+        assert!((first[0][0] + first[1][0] - 40.0).abs() < 2.0, "{first:?}");
+        let second = place(&[first]).unwrap();
+        assert!(is_free(&second, &[first]) && second[0][0] >= 0.0 && second[1][0] < 40.0);
+        assert_eq!(place(&[[[0.0, 0.0], [40.0, 20.0]]]), None);
     }
 }

@@ -3,8 +3,8 @@
 //!
 //! The title is on a strip above the picture of the scene; caption and legend are on strips below
 //! it, in a column beside it or over one of its corners. The file keeps the requested size: the
-//! scene is drawn in the remaining part, exactly as a picture of that size. Grid, outlines and
-//! labels are drawn over it. All annotations consist of text and lines ([`ugimage::label`]), drawn
+//! view of the whole picture is drawn in the remaining part. Grid, outlines and labels are drawn
+//! over it. All annotations consist of text and lines ([`ugimage::label`]), drawn
 //! after the light of the scene has been developed.
 
 mod color_bar;
@@ -33,7 +33,7 @@ use crate::options::{AnnotationOptions, PictureOptions, Place};
 pub use composite::Annotations;
 pub use map::Scale;
 use motion::MotionSummary;
-use seen::{SeenScene, cuts_body, velocities};
+use seen::{SeenScene, velocities};
 use style::Style;
 
 /// The subject of a picture's annotations. `E`: the error of a renderer.
@@ -143,9 +143,15 @@ impl Layout {
         is_over.then(|| [low, [0, 1].map(|axis| low[axis] + f64::from(size[axis]))])
     }
 
-    /// The options for the picture of the scene alone. `options`: of the whole picture.
+    /// The options for the picture of the scene alone, which shows all of the view of the whole
+    /// picture. `options`: of the whole picture.
     pub fn of_scene(&self, options: &PictureOptions) -> PictureOptions {
-        PictureOptions { size: self.scene.size, ..options.clone() }
+        let mut options = PictureOptions { size: self.scene.size, ..options.clone() };
+        if self.scene.size != self.size {
+            let part = |axis: usize| f64::from(self.scene.size[axis]) / f64::from(self.size[axis]);
+            options.camera.part = Some([part(0), part(1)]);
+        }
+        options
     }
 
     /// The picture of the scene in false colours with its scale, if the options ask for it.
@@ -198,6 +204,8 @@ impl Layout {
         if NUMBERS.iter().any(|name| texts.iter().any(|text| text.contains(name))) {
             all.notes.push(Note::UnknownNumber);
         }
+        // Parts of the picture in which no more text has room.
+        let mut taken: Vec<labels::Rectangle> = self.covered().into_iter().collect();
         let mut panel = Drawing::default();
         let panel_width = f64::from(self.panel.window.size[0]);
         let AnnotationOptions { legend, outline, grid, ref iso, ref units, .. } =
@@ -205,32 +213,19 @@ impl Layout {
         if let Subject::Surfaces { view, items, scene, wires, shows_hidden } = annotated.subject {
             let has_labels = !options.output.format().is_linear()
                 && scene.is_some_and(|scene| scene.labels().next().is_some());
-            let is_smaller = self.scene.size != self.size && view.default_camera.is_none();
-            let needs_scene = outline || grid || has_labels || is_smaller;
+            let needs_scene = outline || grid || has_labels;
             if let (Some(scene), Some(wires), true) = (scene, wires, needs_scene) {
                 let seen = SeenScene::new(scene, view, options, wires)?;
-                if is_smaller {
-                    let whole = PictureOptions { size: self.size, ..options.clone() };
-                    let whole = SeenScene::new(scene, view, &whole, wires)?;
-                    all.notes.extend(
-                        cuts_body(scene, &whole.view, &seen.view).then_some(Note::CutByText),
-                    );
-                }
                 if grid {
-                    all.notes.extend(grid::draw(&seen, units, style, &mut all.over)?);
+                    let over = &mut all.over;
+                    all.notes.extend(grid::draw(&seen, units, style, &mut taken, over)?);
                 }
                 if outline {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
                 if has_labels {
-                    let covered = self.covered();
-                    all.notes.extend(labels::draw(
-                        &seen,
-                        style,
-                        covered,
-                        shows_hidden,
-                        &mut all.over,
-                    )?);
+                    let over = &mut all.over;
+                    all.notes.extend(labels::draw(&seen, style, &mut taken, shows_hidden, over)?);
                 }
             } else if has_labels {
                 all.notes.push(Note::NoLabels);
@@ -238,7 +233,8 @@ impl Layout {
             if let Some(iso) = iso {
                 let mut drawn = Ok(());
                 items(false, &mut |item| {
-                    drawn = iso::draw(iso, units, options.size, scene, item, style, &mut all.over)
+                    let seen = iso::Field { size: options.size, scene, item };
+                    drawn = iso::draw(iso, units, &seen, style, &mut taken, &mut all.over);
                 })?;
                 drawn.map_err(Error::from)?;
             }

@@ -3,11 +3,10 @@
 use glam::DVec3;
 use ugimage::figure::Point;
 use ugphysics::Velocity;
-use ugscene::{CameraOptions, RestFrames, Scene, Vertex, View, Wire, vertex_bodies};
+use ugscene::{CameraOptions, RestFrames, Scene, Vertex, View, Wire};
 
 use super::VisibleWires;
 use crate::error::Error;
-use crate::line::is_in_picture;
 use crate::options::PictureOptions;
 
 /// A scene and its camera at one sample a pixel.
@@ -53,19 +52,6 @@ impl<'a, E: From<Error>> SeenScene<'a, E> {
         let scale = if self.view.is_perspective { place.z } else { 1.0 };
         [place.x / scale, place.y / scale]
     }
-}
-
-/// True if a body that is whole in the picture of one view is cut by the edges of another.
-pub fn cuts_body(scene: &Scene, whole: &View, part: &View) -> bool {
-    // In its picture, and in that of the part.
-    let mut bodies = vec![[true; 2]; scene.bodies.len()];
-    for (vertex, body) in scene.vertices.iter().zip(vertex_bodies(scene)) {
-        let point = vertex.position - part.eye;
-        let is_seen = &mut bodies[body.index()];
-        *is_seen =
-            [is_seen[0] && is_in_picture(whole, point), is_seen[1] && is_in_picture(part, point)];
-    }
-    bodies.contains(&[true, false])
 }
 
 /// A scene with these lines as its only wires.

@@ -10,11 +10,17 @@ use crate::output::Output;
 /// Least size of text in pixels; smaller letters cannot be read.
 const LEAST: f64 = 9.0;
 
+/// Least size of text in pixels where there is room for it: letters that are easy to read.
+const CLEAR: f64 = 12.0;
+
 /// Least size of text in points, where a file states its resolution: what journals accept.
 const LEAST_POINTS: f64 = 6.0;
 
 /// Ratio of the geometric mean of the picture's sides to the text size.
 const PER_SIZE: f64 = 40.0;
+
+/// The same for text of at most [`CLEAR`].
+const PER_SMALL_SIZE: f64 = 32.0;
 
 /// Size and colours of text and lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +45,8 @@ impl Style {
     pub fn new(size: [u32; 2], options: &PictureOptions, background: Option<[f32; 3]>) -> Self {
         let [width, height] = size.map(f64::from);
         let least = options.per_inch.map_or(LEAST, |inch| (LEAST_POINTS / 72.0 * inch).max(LEAST));
-        let size = libm::sqrt(width * height) / PER_SIZE;
+        let mean = libm::sqrt(width * height);
+        let size = (mean / PER_SIZE).max(CLEAR.min(mean / PER_SMALL_SIZE));
         let size = options.annotations.text_size.unwrap_or_else(|| size.max(least).round());
         let byte = |part: f64| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8;
         let background =

@@ -79,7 +79,6 @@ impl Words for Note {
             Self::NothingInFront => remedies::NOTHING_IN_FRONT,
             Self::NothingInPicture => remedies::NOTHING_IN_PICTURE,
             Self::AllTransparent => "{}; give their colours a translucency below 1",
-            Self::CutByText => "{}: -lp beside leaves more rows, and a wider -va shows all of it",
             Self::NoPanorama => "{}: try another -vc, or a wider -va",
             Self::BackFacing => "{}; leave out -cb, or turn the faces round",
             Self::EdgeOn => "{}; try another -ep",

@@ -9,6 +9,7 @@ use ugrainbow::{
     AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Note, Output,
     PictureOptions, Place, render, run,
 };
+use ugscene::View;
 
 use crate::common::{draw, scene, with};
 
@@ -35,9 +36,11 @@ fn strips() -> AnnotationOptions {
 fn scene_rows(config: &Config) -> u32 {
     let figure = draw(SHIP, config);
     assert_eq!([figure.width(), figure.height()], config.picture.size);
-    let size = Canvas::new(&config.picture).unwrap().options().size;
+    let canvas = Canvas::new(&config.picture).unwrap();
+    let size = canvas.options().size;
     let alone = with(config, |picture| {
-        (picture.size, picture.annotations) = (size, AnnotationOptions::default())
+        (picture.size, picture.annotations) = (size, AnnotationOptions::default());
+        picture.camera = canvas.options().camera.clone();
     });
     assert!(size[0] == figure.width() && figure.pixels().starts_with(draw(SHIP, &alone).pixels()));
     size[1]
@@ -79,6 +82,7 @@ fn the_scene_is_that_of_the_part_that_is_left() {
         let size @ [width, height] = canvas.options().size;
         let alone = with(&config, |picture| {
             (picture.size, picture.annotations) = (size, AnnotationOptions::default());
+            picture.camera = canvas.options().camera.clone();
         });
         let alone = draw(SHIP, &alone);
         let (mut changed, mut n_seen, mut title) = (Vec::new(), 0, Vec::new());
@@ -111,23 +115,39 @@ fn the_scene_is_that_of_the_part_that_is_left() {
     }
 }
 
-/// Only a body that the whole picture would show is told to be cut by strips.
+/// All that a picture of the whole size shows is in the part that text leaves, where it is smaller.
 #[test]
-fn a_body_that_strips_cut_is_told() {
-    let told = |size, place| {
-        let annotations = AnnotationOptions { place, ..strips() };
-        let config = with(&Config::default(), |picture| {
-            (picture.size, picture.samples, picture.annotations) = (size, 1, annotations);
-        });
-        let text = SHIP.replace("-vc 0 0 .5", "-vc 0 0 .5 -va 24");
-        render(&scene(&text), &config).unwrap().notes.contains(&Note::CutByText)
-    };
-    assert!(!told([400, 400], Place::Below));
-    assert!(told([400, 230], Place::Below));
-    assert!(!told([400, 230], Place::Beside));
-    assert!(!told([400, 230], Place::TopLeft));
-    // The whole picture would cut it, too.
-    assert!(!told([400, 150], Place::Below));
+fn text_cuts_no_body() {
+    for size in [[400, 230], [300, 300], [230, 400]] {
+        for place in [Place::Below, Place::Beside] {
+            for camera in ["-va 24", "-va 24 -ph 0.2 -0.1 1.1 0.8", "-fl 2 -fs 1 1"] {
+                let annotations = AnnotationOptions { place, title: "A".into(), ..strips() };
+                let config = with(&Config::default(), |picture| {
+                    (picture.size, picture.samples, picture.annotations) = (size, 1, annotations);
+                });
+                let canvas = Canvas::new(&config.picture).unwrap();
+                let scene = scene(&SHIP.replace("-vc 0 0 .5", &format!("-vc 0 0 .5 {camera}")));
+                let view = |picture: &PictureOptions| {
+                    View::new(&scene, &picture.camera, picture.size).unwrap()
+                };
+                let [whole, part] = [view(&config.picture), view(canvas.options())];
+                let [width, height] = canvas.options().size.map(f64::from);
+                let scale = (width / f64::from(size[0])).min(height / f64::from(size[1]));
+                for corner in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+                    let at = [0, 1].map(|axis| corner[axis] * f64::from(size[axis]));
+                    let found = part.place(whole.point(at, 7.0));
+                    let middle = [0.5 * width, 0.5 * height];
+                    let expected = [0, 1].map(|axis| {
+                        middle[axis] + scale * f64::from(size[axis]) * (corner[axis] - 0.5)
+                    });
+                    let apart = [found.x / 7.0 - expected[0], found.y / 7.0 - expected[1]];
+                    assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{apart:?} {camera}");
+                    assert!(expected[0] > -1e-9 && expected[0] < width + 1e-9, "{expected:?}");
+                    assert!(expected[1] > -1e-9 && expected[1] < height + 1e-9, "{expected:?}");
+                }
+            }
+        }
+    }
 }
 
 /// Twice the size of text takes twice the rows.
