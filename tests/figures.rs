@@ -316,7 +316,7 @@ fn text_in_figures_can_be_searched() {
     };
     let found = words(&draw(Format::Pdf, TextForm::Text));
     assert!(
-        [CAPTION, "γ = 1.021", "700 nm", "x = −8"].iter().all(|text| found.contains(text)),
+        [CAPTION, "γ = 1.021", "700 nm", "x = −10"].iter().all(|text| found.contains(text)),
         "{found}"
     );
     assert_eq!(words(&draw(Format::Pdf, TextForm::Outlines)).trim(), "");
