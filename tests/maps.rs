@@ -89,9 +89,9 @@ fn false_colours_are_those_of_the_channels() {
             let annotations = AnnotationOptions { map, ..AnnotationOptions::default() };
             pipe.picture =
                 PictureOptions { size: SIZE, samples: 1, annotations, ..PictureOptions::default() };
-            let size = Canvas::new(&pipe.picture).unwrap().options().size;
+            let scene_options = Canvas::new(&pipe.picture).unwrap().options().clone();
             let drawn = pipe.draw(FilmSubject::Scene(&scene)).unwrap().0.into_frame().unwrap();
-            pipe.picture.size = size;
+            pipe.picture = scene_options;
             pipe.picture.annotations = AnnotationOptions::default();
             pipe.picture.output = Output::Color(Format::Exr);
             pipe.picture.channels = vec![channel];
