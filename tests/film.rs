@@ -501,6 +501,11 @@ fn exposures_follow_the_light() {
     let film = "-frames 6 -cv '0 0 0 .. 0 .95 0'";
     let [_, notes] = draw("whole", &format!("{film} -ex follow"));
     assert!(notes.contains("the exposure follows the light, from -ex "), "{notes}");
+    for frame in 1..=6 {
+        let pixels = shell.pixels(&format!("whole/f_{frame:02}.png"));
+        let n_white = pixels.iter().filter(|pixel| pixel[..3] == [255; 3]).count();
+        assert!(100 * n_white <= pixels.len(), "frame {frame}: {n_white} of {}", pixels.len());
+    }
     for part in ["-only 3..5", "-only 2,6 -nt 1", "", ""] {
         draw("parts", &format!("{film} {part} -ex follow"));
     }
