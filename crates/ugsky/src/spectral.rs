@@ -54,7 +54,7 @@ impl fmt::Display for BasisError {
 impl std::error::Error for BasisError {}
 
 /// Step of tables in ln D.
-const STEP: f64 = 0.0025;
+const STEP: f64 = 0.003;
 
 /// |ln D| up to which light is tabulated: beyond it nothing visible is left.
 const MOST_LN_DOPPLER: f64 = 12.0;
@@ -86,7 +86,7 @@ pub const N_PURE: usize = 7;
 /// Saturations at which [`Basis::Mixture`] has spectra, evenly spaced up to 1. The spectrum of a
 /// pale colour is smooth, that of a primary goes to 0 steeply: mixed from white and primaries alone,
 /// a pale blue sky would be green at D = 1.3.
-const N_LEVELS: usize = 3;
+const N_LEVELS: usize = 2;
 
 /// Number of spectra of [`Basis::Mixture`]: white, and the others of [`PURE`] at each saturation.
 const N_MIXED: usize = 1 + N_LEVELS * (N_PURE - 1);
