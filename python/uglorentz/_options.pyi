@@ -749,7 +749,7 @@ class Film(Reading, total=False):
     rays: bool | None
     """True. Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs"""
     warp: bool | None
-    """True. Draw views of a panorama, a picture, instead of a scene"""
+    """True. Draw views of a panorama, or of numbered ones, instead of a scene"""
     ease: Text | None
     """WORD. How numbers change from one value to the next: linear, smooth [default: linear]"""
     loop: bool | None

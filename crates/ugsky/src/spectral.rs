@@ -270,13 +270,14 @@ fn mixture(reach: f64, range: &Range<f64>) -> Kind {
 
 /// The light of a mixture between two entries of the table.
 fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_MIXED]; 2], part: f32) -> [f32; 3] {
-    let mixed = mixed(rgb);
-    std::array::from_fn(|c| {
-        mixed
-            .iter()
-            .map(|&(row, amount)| amount * (low[row][c] + part * (high[row][c] - low[row][c])))
-            .sum()
-    })
+    let mut seen = [0.0; 3];
+    for (row, amount) in mixed(rgb) {
+        let (low, high) = (&low[row], &high[row]);
+        for c in 0..3 {
+            seen[c] += amount * (low[c] + part * (high[c] - low[c]));
+        }
+    }
+    seen
 }
 
 /// The spectra of [`Basis::Mixture`] in a colour with their amounts: a pair and its brighter
