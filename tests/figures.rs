@@ -254,8 +254,8 @@ fn vector_figures_show_the_same_as_the_png() {
         let png = on_paper(decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
         let is_clear = pipe.rainbow.picture.background == ugrainbow::Background::Transparent;
-        // All tools draw the figures with text, smooth areas and transparency. Of the others EPS would
-        // show the same page as PostScript, and a browser takes seconds to start.
+        // All tools draw the figures with text, smooth areas and transparency. Of the others EPS
+        // would show the same page as PostScript, and a browser takes seconds to start.
         let is_for_all = ["text", "teapot", "transparent"].contains(name);
         let is_tried = |format: Format, tool: Tool| {
             (!is_clear || format.has_alpha())

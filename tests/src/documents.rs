@@ -134,7 +134,8 @@ pub fn fill(folder: &Path, programs: &Path) {
 }
 
 /// Makes the files that examples of `--help` take for granted: a mesh of the reader's own, in
-/// several formats, its lights and camera, a scene that has been through `uglorentz`, and a panorama.
+/// several formats, its lights and camera, a scene that has been through `uglorentz`, and a
+/// panorama.
 const PREPARATION: &str = "\
     ugmesh -dt obj teapot.ug -fo teapot.obj; \
     ugmesh -dt ply globe.obj -fo globe.ply; \

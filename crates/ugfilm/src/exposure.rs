@@ -70,8 +70,8 @@ mod tests {
         assert_eq!(middle.count(), 52);
     }
 
-    /// The exposure falls slowly to that of a flash of one frame or a step, before it comes, as much
-    /// in a film that is played backwards.
+    /// The exposure falls slowly to that of a flash of one frame or a step, before it comes, as
+    /// much in a film that is played backwards.
     #[test]
     fn exposures_do_not_flicker() {
         let flash =

@@ -36,9 +36,9 @@ const MOST_METERED: u32 = 250;
 const MEASURED_SIDE: u32 = 128;
 
 /// Stops by which an exposure that follows is below the metered one, if this changes so much. Small
-/// pictures lack the smallest highlights, and light just below white is shown as white in 8 bits: in
-/// films of street.ug and tunnel.ug at 0.9c and 0.95c up to 1.4 % of a frame were white without it,
-/// with it 0.7 %.
+/// pictures lack the smallest highlights, and light just below white is shown as white in 8 bits:
+/// in films of street.ug and tunnel.ug at 0.9c and 0.95c up to 1.4 % of a frame were white without
+/// it, with it 0.7 %.
 const BELOW_METERED: f64 = 0.2;
 
 /// Memory for the light of the frames of a film whose exposure is chosen, in bytes.
@@ -388,9 +388,9 @@ impl Film<'_> {
         Ok((sheet.map_err(|error| Failure::failed(error.words()))?, pictures))
     }
 
-    /// Writes a film to the output of the program. `rate`: frames a second. `captions`: those of its
-    /// frames on a page. `keep`: files in which single frames are kept: read if they are done, and
-    /// written if they are not.
+    /// Writes a film to the output of the program. `rate`: frames a second. `captions`: those of
+    /// its frames on a page. `keep`: files in which single frames are kept: read if they are done,
+    /// and written if they are not.
     ///
     /// # Errors
     /// A frame cannot be drawn, or the film cannot be written.

@@ -54,7 +54,7 @@ pub struct Script {
     pub ease: Ease,
     /// The last frame comes before the first again, so it is not the same.
     pub is_loop: bool,
-    /// The number of the picture of the first frame, of a film of numbered pictures.
+    /// If the film is drawn from numbered pictures, the number of the first frame's picture.
     pub first_picture: Option<u32>,
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,

@@ -39,7 +39,7 @@ pub struct Series {
     records: Mutex<BTreeMap<u32, Vec<String>>>,
 }
 
-/// Where the panoramas come from.
+/// The files of the panoramas.
 pub enum Pictures {
     /// Numbered files.
     Files(FrameNames),

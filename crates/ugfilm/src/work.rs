@@ -8,10 +8,10 @@ use rayon::ThreadPoolBuilder;
 use ugpipe::Failure;
 
 /// Computes `n_rows` results, at most `most` at the same time, and consumes them in order, on this
-/// thread. Each thread works on one row with a pool of its own, and waits when it is so far ahead that results would fill memory.
-/// Where this thread is the only worker of the process, it computes the rows itself: for more
-/// threads there is not enough address space. Ends at the first row that fails, after all rows
-/// before it were consumed.
+/// thread. Each thread works on one row with a pool of its own, and waits when it is so far ahead
+/// that results would fill memory. Where this thread is the only worker of the process, it computes
+/// the rows itself: for more threads there is not enough address space. Ends at the first row that
+/// fails, after all rows before it were consumed.
 ///
 /// # Errors
 /// The error of the first row that fails, or of `consume`.

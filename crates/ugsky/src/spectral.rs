@@ -14,8 +14,8 @@ use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Basis {
     /// Daylight on a mixture of white, pairs of primaries and primaries, mixed with white to a few
-    /// saturations, each with the reflectance of (P20) (after Smits 1999). Colours that differ little
-    /// have spectra that differ little, in the infrared as well.
+    /// saturations, each with the reflectance of (P20) (after Smits 1999). Colours that differ
+    /// little have spectra that differ little, in the infrared as well.
     Mixture,
     /// Sums of black bodies at three temperatures, in kelvins (Weiskopf 2000). Saturated colours
     /// need negative amounts of some.
@@ -84,8 +84,8 @@ type MixedColors = dyn Fn(f64) -> [[f64; 3]; N_MIXED] + Send + Sync;
 pub const N_PURE: usize = 7;
 
 /// Saturations at which [`Basis::Mixture`] has spectra, evenly spaced up to 1. The spectrum of a
-/// pale colour is smooth, that of a primary goes to 0 steeply: mixed from white and primaries alone,
-/// a pale blue sky would be green at D = 1.3.
+/// pale colour is smooth, that of a primary goes to 0 steeply: mixed from white and primaries
+/// alone, a pale blue sky would be green at D = 1.3.
 const N_LEVELS: usize = 2;
 
 /// Number of spectra of [`Basis::Mixture`]: white, and the others of [`PURE`] at each saturation.

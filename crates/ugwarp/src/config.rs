@@ -65,8 +65,8 @@ impl Config {
 
     /// The same with the camera of a scene at [`time`](Self::time) instead of the velocity: where
     /// it looks, how it moves then, and how its motion has turned it. The scene is in the frame and
-    /// the axes of the panorama. A panorama is infinitely far away, so the place of the camera has no
-    /// effect.
+    /// the axes of the panorama. A panorama is infinitely far away, so the place of the camera has
+    /// no effect.
     ///
     /// # Errors
     /// The scene has no camera, or an invalid one.

@@ -52,7 +52,7 @@ fn levels_are_cosines() {
 }
 
 /// A spot is whole within its edge, half in the middle of it, symmetrically, and dark outside; an
-/// area shines by the cosine on its side of u × v.
+/// area lamp emits in proportion to the cosine of the angle to u × v, and nothing behind it.
 #[test]
 fn beams_have_their_shapes() {
     let spot = |degrees| Beam::Spot { axis: DVec3::new(0.0, 0.0, -3.0), degrees };

@@ -135,8 +135,8 @@ struct Spaces<'a> {
 }
 
 impl Spaces<'_> {
-    /// A box for text with these half sides, in the picture, and if there is such a place apart from
-    /// what is taken, and outside of all bodies. `size`: of text.
+    /// A box for text with these half sides, in the picture, and if there is such a place apart
+    /// from what is taken, and outside of all bodies. `size`: of text.
     fn place(&self, tip: Point, half: [f64; 2], middle: Point, size: f64) -> Rectangle {
         let [x, y] = [tip[0] - middle[0], tip[1] - middle[1]];
         let length = libm::hypot(x, y);

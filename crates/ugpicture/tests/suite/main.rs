@@ -65,7 +65,8 @@ fn clipped_lines_end_at_zeros() {
     assert_eq!(clip_line([[-1.0, 1.0], [1.0, -3.0]]), None);
 }
 
-/// Places within a distance are those of the first, whatever cell they fall into.
+/// Places within a given distance of an earlier one count as that one, also across cells of the
+/// grid that finds them.
 #[test]
 fn near_places_are_one() {
     let places: Vec<DVec3> =

@@ -205,8 +205,8 @@ impl<'a, const N: usize> Faces<'a, N> {
 }
 
 impl Faces<'_, TRANSPARENT_VALUES> {
-    /// Draws the faces of a band as transparent fragments, wherever they are in front of the nearest
-    /// occluder.
+    /// Draws the faces of a band as transparent fragments, wherever they are in front of the
+    /// nearest occluder.
     pub fn draw_transparent(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
         if self.painter.appearance.is_spectral() {
             self.draw_all::<true>(band, writer);

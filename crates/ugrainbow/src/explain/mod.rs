@@ -144,7 +144,8 @@ fn stack(sample: &ProbedSample) -> Vec<Layer> {
     stack
 }
 
-/// What a sample shows: its faces and wires, each once, even if its edges are in the sample as well.
+/// What a sample shows: its faces and wires, each once, even if its edges are in the sample as
+/// well.
 fn content(sample: ProbedSample) -> (SampleContent, ProbedSample) {
     let stack = stack(&sample);
     let mut rows: Vec<u32> = stack.iter().map(|layer| layer.tag).collect();

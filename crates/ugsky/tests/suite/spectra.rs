@@ -40,8 +40,8 @@ fn mixtures_are_of_smooth_curves() {
     }
 }
 
-/// The mixture for a colour is nearly the curve of that colour: a blue sky stays blue ahead, where a
-/// mixture of white and primaries alone was green.
+/// The mixture for a colour is nearly the curve of that colour: a blue sky stays blue ahead, where
+/// a mixture of white and primaries alone was green.
 #[test]
 fn mixtures_are_nearly_the_curve_of_the_colour() {
     let table = SpectralTable::new(Basis::Mixture, true, true, 1.0, ALL_NM).unwrap();
