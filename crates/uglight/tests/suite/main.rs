@@ -1,5 +1,7 @@
 //! Lamps and colours: fall-off, cosine, beams, and what motion changes in hues.
 
+mod colors;
+
 use glam::DVec3;
 use uglight::{FallOff, HueColor, HueShift, Lamp, LampPlace, Lamps};
 use ugphysics::{Brightness, Hsv};
