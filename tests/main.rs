@@ -39,6 +39,7 @@ mod shells;
 mod sky;
 mod stage;
 mod stop;
+mod surround;
 mod tidy;
 mod untrusted;
 mod warp;

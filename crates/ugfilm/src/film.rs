@@ -9,7 +9,7 @@ use ugimage::{
 };
 use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
-use ugsheet::film::{Caption, FilmKind, FilmShape, FrameNames};
+use ugsheet::film::{Caption, FilmFile, FilmKind, FilmShape, FrameNames};
 use ugsheet::{Config, Motion, Picture, Sheet};
 
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
@@ -21,6 +21,7 @@ use crate::note::Note;
 use crate::pipe::{DrawnLight, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
 use crate::series::Subjects;
+use crate::surround::surround;
 use crate::work::in_order;
 
 /// Largest number of frames whose commands are checked before the first frame is drawn.
@@ -406,8 +407,10 @@ impl Film<'_> {
         let shape = FilmShape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
-        let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
-        ugsheet::film::write(context, (kind, shape, is_opaque), captions, |steps, push| {
+        let pipe = self.pipe(1)?;
+        let is_opaque = pipe.picture.background != Background::Transparent;
+        let film = FilmFile { kind, shape, is_opaque, surround: surround(&pipe)? };
+        ugsheet::film::write(context, &film, captions, |steps, push| {
             self.each(
                 ("drawing", steps),
                 frames,

@@ -82,6 +82,8 @@ mod series;
 #[cfg(feature = "cli")]
 mod sight;
 #[cfg(feature = "cli")]
+mod surround;
+#[cfg(feature = "cli")]
 mod timeline;
 #[cfg(feature = "cli")]
 mod work;

@@ -5,6 +5,7 @@ use ugpicture::{AnnotationOptions, Canvas, PictureOptions, Rendering};
 use ugpipe::Progress;
 use ugscene::{Head, Provenance, Scene};
 use ugskybox::SceneSky;
+use ugtrace::lens::Lens;
 
 use crate::error::Error;
 use crate::note::Note;
@@ -158,17 +159,22 @@ impl Pipe {
         self.programs.last().map_or_else(Vec::new, |program| program.notes(picture))
     }
 
-    /// The same frame in a picture of at most `side` pixels a side, without annotations, which
-    /// would leave no room for the scene.
+    /// The same frame in a picture of about `side` pixels a side at most, without annotations,
+    /// which would leave no room for the scene. The sides of a cube stay squares, and the pictures
+    /// of two eyes equal.
     #[must_use]
     pub fn small(mut self, side: u32) -> Self {
         let [width, height] = self.picture.size;
         let longest = width.max(height).max(1);
         if longest > side {
-            let scaled = |length: u32| {
-                ((u64::from(length) * u64::from(side)) / u64::from(longest)).max(1) as u32
+            let scaled = |length: u32, n: u32| {
+                let length = u64::from(length / n) * u64::from(side) / u64::from(longest);
+                n * length.max(1) as u32
             };
-            self.picture.size = [scaled(width), scaled(height)];
+            let (lens, is_stereo) =
+                self.programs.last().map_or((Lens::Pinhole, false), Program::lens);
+            let [across, down] = lens.frames(is_stereo);
+            self.picture.size = [scaled(width, across), scaled(height, down)];
         }
         self.picture.channels.clear();
         self.picture.annotations = AnnotationOptions::default();

@@ -6,6 +6,7 @@ use ugpicture::{PictureOptions, Rendering};
 use ugpipe::Progress;
 use ugscene::{MotionOptions, Provenance, Scene};
 use ugskybox::SceneSky;
+use ugtrace::lens::Lens;
 
 use crate::note::Note;
 
@@ -84,15 +85,27 @@ impl Program {
         }
     }
 
+    /// The lens of a program that draws, and whether it draws for two eyes.
+    pub fn lens(&self) -> (Lens, bool) {
+        match self {
+            Self::Photon(config) => (config.lens, config.stereo.is_some()),
+            Self::Warp(config) => (config.lens, false),
+            Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => (Lens::Pinhole, false),
+        }
+    }
+
+    /// The part of the whole picture that is drawn: left column, upper row, width and height.
+    pub fn crop(&self) -> Option<[u32; 4]> {
+        match self {
+            Self::Photon(config) => config.crop,
+            _ => None,
+        }
+    }
+
     /// The panorama that a picture with these options is, of a program that draws panoramas.
     pub fn panorama(&self, picture: &PictureOptions) -> Option<PanoramaArea> {
-        match self {
-            Self::Photon(config) => {
-                picture.panorama_area(config.lens, config.stereo.is_some(), config.crop)
-            }
-            Self::Warp(config) => picture.panorama_area(config.lens, false, None),
-            Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => None,
-        }
+        let (lens, is_stereo) = self.lens();
+        picture.panorama_area(lens, is_stereo, self.crop())
     }
 
     /// The sky around a scene, of a program that draws or lights scenes.

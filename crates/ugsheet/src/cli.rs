@@ -13,7 +13,7 @@ use ugpipe::{
     one_of, sha256, whole,
 };
 
-use crate::film::{self, Caption, FilmKind, Footage, FrameNames, Joined};
+use crate::film::{self, Caption, FilmFile, FilmKind, Footage, FrameNames, Joined};
 use crate::recipe::{Recipe, recipes};
 use crate::{Config, Error, Labels, Motion, Picture, Sheet, history, join, recorded_files};
 
@@ -501,7 +501,8 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
     let captions = (1..=joined.shape.n_frames)
         .map(|number| Caption { values: number.to_string(), line: command.clone() });
     let captions = captions.filter(|_| kind == FilmKind::Html).collect();
-    film::write(context, (kind, joined.shape, true), captions, |steps, push| {
+    let film = FilmFile { kind, shape: joined.shape, is_opaque: true, surround: None };
+    film::write(context, &film, captions, |steps, push| {
         joined.draw(&command, steps, |_, frame, _| push(frame))
     })
 }

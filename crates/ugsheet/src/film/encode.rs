@@ -9,6 +9,7 @@ use ugpipe::{Context, Failure, Running, Steps};
 
 use super::animation::{AnimatedPng, FilmShape, Gif, fraction};
 use super::lesson::{Caption, Lesson};
+use super::surround::Surround;
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,23 +64,38 @@ impl FilmKind {
     }
 }
 
+/// A film as a file.
+#[derive(Clone, Debug)]
+pub struct FilmFile {
+    /// Its kind.
+    pub kind: FilmKind,
+    /// The size and number of its frames.
+    pub shape: FilmShape,
+    /// True if no frame is transparent.
+    pub is_opaque: bool,
+    /// What players of 360° films are told; kinds that ffmpeg writes say it.
+    pub surround: Option<Surround>,
+}
+
 /// Writes a film to the output of a program, of which nothing is written before its first frame is
-/// drawn. `draw` passes the frames on in order. `captions`: of the pictures on a page; `is_opaque`:
-/// no frame is transparent.
+/// drawn. `draw` passes the frames on in order. `captions`: of the pictures on a page.
 ///
 /// # Errors
 /// A frame cannot be drawn, or the film cannot be written.
 pub fn write(
     context: &mut Context,
-    (kind, shape, is_opaque): (FilmKind, FilmShape, bool),
+    film: &FilmFile,
     captions: Vec<Caption>,
     draw: impl FnOnce(&Steps<'_>, &mut dyn FnMut(&Frame) -> Result<(), Failure>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    let (kind, shape) = (film.kind, film.shape);
     if kind.is_encoded() {
         return context.write_by_name(|path, steps| {
-            let mut ffmpeg = Ffmpeg::new(kind, shape, is_opaque, path)?;
+            let mut ffmpeg = Ffmpeg::new(film, path)?;
             draw(steps, &mut |frame| ffmpeg.push(frame))?;
-            ffmpeg.finish()
+            ffmpeg.finish()?;
+            let mark = |surround: &Surround| surround.mark(kind, path);
+            film.surround.as_ref().map_or(Ok(()), mark).map_err(Failure::failed)
         });
     }
     context.write_stream(|out, steps| {
@@ -222,16 +238,12 @@ struct Ffmpeg {
 }
 
 impl Ffmpeg {
-    /// Starts it. `is_opaque`: no frame is transparent.
+    /// Starts it.
     ///
     /// # Errors
     /// There is no ffmpeg.
-    pub fn new(
-        kind: FilmKind,
-        shape: FilmShape,
-        is_opaque: bool,
-        path: &Path,
-    ) -> Result<Self, Failure> {
+    pub fn new(film: &FilmFile, path: &Path) -> Result<Self, Failure> {
+        let &FilmFile { kind, shape, is_opaque, .. } = film;
         let [width, height] = shape.size;
         let [count, seconds] = fraction(shape.rate);
         let codec: &[&str] = match kind {
@@ -257,6 +269,7 @@ impl Ffmpeg {
             .args(["-vf", &format!("scale=out_color_matrix=bt709,format={planes}")])
             .args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"])
             .args(["-fflags", "+bitexact", "-flags:v", "+bitexact"])
+            .args(film.surround.iter().flat_map(|surround| surround.arguments(kind)))
             .args(codec)
             .arg(path)
             .stdin(Stdio::piped())

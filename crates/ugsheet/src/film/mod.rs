@@ -7,13 +7,15 @@ mod frame_names;
 mod joined;
 mod lesson;
 mod palette;
+mod surround;
 
 pub use animation::{FilmShape, MOST_GIF_RATE};
-pub use encode::{FilmKind, write};
+pub use encode::{FilmFile, FilmKind, write};
 pub(crate) use footage::{Footage, is_film, names_frames};
 pub use frame_names::FrameNames;
 pub(crate) use joined::Joined;
 pub use lesson::Caption;
+pub use surround::{Eyes, Mesh, Projection, Surround};
 
 /// Frames a second of a film that states no other.
 pub const DEFAULT_RATE: f64 = 25.0;
