@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use glam::DVec3;
-use uglight::{Appearance, ColorShift, FaceColors, LampPlace, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Lamp, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugscene::{
@@ -93,6 +93,39 @@ fn moving_medium(scene: &Scene, frames: &RestFrames) -> Option<BodyId> {
     faces.iter().find(is_medium).map(|face| face.body)
 }
 
+/// Refuses more lights than can be computed.
+fn check_lightings(n_lights: usize, config: &Config) -> Result<(), Error> {
+    let [width, height] =
+        config.crop.map_or(config.picture.size, |[_, _, width, height]| [width, height]);
+    let n_samples = u64::from(width) * u64::from(height) * u64::from(config.picture.samples.pow(2));
+    if (n_lights as u64).saturating_mul(n_samples) > MOST_LIGHTINGS {
+        return Err(Error::TooManyLights { n_lights, n_samples });
+    }
+    Ok(())
+}
+
+/// For each lamp, the transparent solid that it is in and rests with. Empty if no lamp is in one.
+fn lamp_media(
+    lamps: &Lamps,
+    (world, faces, immersion): (&World, Faces<'_>, &Immersion),
+    frames: &RestFrames,
+) -> Vec<Option<Solid>> {
+    let solid = |lamp: &Lamp| {
+        let LampPlace::At(place) = lamp.place else { return None };
+        let velocity = lamp.motion.body().map(|body| frames.velocity(body));
+        (0..world.parts.len()).find_map(|part| {
+            let frame = &world.parts[part].frame;
+            let rests = world.parts[part].motion.is_none()
+                && velocity.is_none_or(|velocity| velocity == frame.velocity());
+            let event = || frame.camera_from_rest(Event { t: -place.length(), x: place });
+            let inside = rests.then(|| immersion.media(world, faces, event()).innermost());
+            inside.flatten().filter(|solid| solid.part == part)
+        })
+    };
+    let media: Vec<Option<Solid>> = lamps.iter().map(solid).collect();
+    if media.iter().all(Option::is_none) { Vec::new() } else { media }
+}
+
 impl<'a> Scenery<'a> {
     /// `scene`: as seen, with the stage that says so; its vertices are part of one body each.
     ///
@@ -105,21 +138,14 @@ impl<'a> Scenery<'a> {
         if ShownEffects::of(&scene) != ShownEffects::default() {
             return Err(Error::PartialGeometry);
         }
-        let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
+        let PictureOptions { size: [width, _], samples, camera, .. } = &config.picture;
         let [frame_width, frame_height] = config.frame_size().map(|side| side * samples);
         let view = View::new(&scene, camera, [frame_width, frame_height])?;
         if !view.is_perspective {
             return Err(Error::Orthographic);
         }
         let film = Film::new(config.lens, config.stereo, &view, [frame_width, frame_height]);
-        let n_samples =
-            config.crop.map_or(u64::from(*width) * u64::from(*height), |[_, _, width, height]| {
-                u64::from(width) * u64::from(height)
-            }) * u64::from(samples * samples);
-        let n_lights = scene.lights.len();
-        if (n_lights as u64).saturating_mul(n_samples) > MOST_LIGHTINGS {
-            return Err(Error::TooManyLights { n_lights, n_samples });
-        }
+        check_lightings(scene.lights.len(), config)?;
         let mut scene = scene;
         let interpolation = config.interpolation.of_scene(&mut scene, config.hue_scale)?;
         let shift = config.shift;
@@ -155,23 +181,7 @@ impl<'a> Scenery<'a> {
         };
         let lamps = lamps.over_time(&scene, view.eye, is_spectral);
         let n_own_lamps = lamps.len();
-        let lamp_media = lamps[..n_own_lamps].iter().map(|lamp| {
-            let LampPlace::At(place) = lamp.place else { return None };
-            let velocity =
-                lamp.motion.body().map(|body| appearance.surface.frames().velocity(body));
-            (0..world.parts.len()).find_map(|part| {
-                let frame = &world.parts[part].frame;
-                let rests = world.parts[part].motion.is_none()
-                    && velocity.is_none_or(|v| v == frame.velocity());
-                let event = || frame.camera_from_rest(Event { t: -place.length(), x: place });
-                let inside = rests.then(|| immersion.media(&world, faces, event()).innermost());
-                inside.flatten().filter(|solid| solid.part == part)
-            })
-        });
-        let mut lamp_media: Vec<Option<Solid>> = lamp_media.collect();
-        if lamp_media.iter().all(Option::is_none) {
-            lamp_media.clear();
-        }
+        let lamp_media = lamp_media(&lamps, (&world, faces, &immersion), surface.frames());
         let (lamps, appearance) = match (&sky_lamps, sky_motion) {
             (Some(sky), Some(motion)) => {
                 let lamps = lamps.and(sky.lights(n_own_lamps, motion, is_spectral));

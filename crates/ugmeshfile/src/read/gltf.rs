@@ -323,28 +323,7 @@ impl Reader<'_, '_> {
                 self.builder.set_uv(vertices[row], Some(texture.placed([u, v])));
             }
         }
-        let texture = surface.texture.as_ref().filter(|_| uvs.is_some()).map(|texture| {
-            let mut drawn = texture.texture.clone();
-            if colors.is_some() {
-                // The colours of vertices contain those of the material.
-                let part = |mean: f64| if mean > 0.0 { (1.0 / mean) as f32 } else { 0.0 };
-                let [red, green, blue] = texture.mean.map(part);
-                drawn.factor = [red, green, blue, drawn.factor[3]];
-            }
-            drawn
-        });
-        let color = match (&colors, material) {
-            (Some(_), _) if texture.is_none() && emission.is_none() => None,
-            (_, Some(material)) => {
-                let name = material["name"].as_str().unwrap_or_default();
-                let emitted = emission.and_then(|(factor, texture)| {
-                    let picture = texture.as_ref().map(|it| (it.texture.clone(), it.mean));
-                    self.builder.emitted(*factor, name, picture)
-                });
-                Some(self.builder.material(surface.display_color(&[]), name, texture, emitted))
-            }
-            _ => None,
-        };
+        let color = self.face_color(&surface, material, [uvs.is_some(), colors.is_some()]);
         // A reflection reverses the orientation of triangles.
         let is_mirrored = scene_from_node.matrix3.determinant() < 0.0;
         for [a, b, c] in triangles(mode, corners.len()) {
@@ -352,6 +331,35 @@ impl Reader<'_, '_> {
             self.builder.face(&triangle.map(|corner| vertices[corners[corner]]), color)?;
         }
         Ok(())
+    }
+
+    /// The colour of the faces of a primitive; `None` if the colours of its vertices are enough.
+    /// `has_uvs`: it has texture coordinates; `has_colors`: its vertices have colours.
+    fn face_color(
+        &mut self,
+        surface: &Surface,
+        material: Option<&Value>,
+        [has_uvs, has_colors]: [bool; 2],
+    ) -> Option<ColorId> {
+        let texture = surface.texture.as_ref().filter(|_| has_uvs).map(|texture| {
+            let mut drawn = texture.texture.clone();
+            if has_colors {
+                // The colours of vertices contain those of the material.
+                let part = |mean: f64| if mean > 0.0 { (1.0 / mean) as f32 } else { 0.0 };
+                let [red, green, blue] = texture.mean.map(part);
+                drawn.factor = [red, green, blue, drawn.factor[3]];
+            }
+            drawn
+        });
+        if has_colors && texture.is_none() && surface.emission.is_none() {
+            return None;
+        }
+        let name = material?["name"].as_str().unwrap_or_default();
+        let emitted = surface.emission.as_ref().and_then(|(factor, texture)| {
+            let picture = texture.as_ref().map(|it| (it.texture.clone(), it.mean));
+            self.builder.emitted(*factor, name, picture)
+        });
+        Some(self.builder.material(surface.display_color(&[]), name, texture, emitted))
     }
 
     /// The colour of a material, times the mean of its texture; white without one.
