@@ -14,7 +14,7 @@ use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
     Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull,
-    distant_bodies, junctions, remaining_errors, rounds, tables, uniform, viewpoint,
+    distant_bodies, junctions, measured, remaining_errors, rounds, tables, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -36,6 +36,8 @@ pub fn apply_with(
 ) -> Result<(Scene, Report), Error> {
     progress.step("moving and cutting", 0);
     check(config)?;
+    measured::refuse_partial(&scene, config)?;
+    let (config, carrier) = &measured::in_frame(&mut scene, config)?;
     let are_rounds_cut = scene.has_rounds_on_world_lines();
     rounds::cut(&mut scene, config)?;
     let n_faces = scene.faces.len();
@@ -59,7 +61,9 @@ pub fn apply_with(
 
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
     let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
-    let tolerance = Tolerance::new(error, config.color_error);
+    // Measured pictures have no Doppler effect.
+    let of_doppler = if config.measured.is_some() { f64::INFINITY } else { config.color_error };
+    let tolerance = Tolerance::new(error, of_doppler);
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
     let clocks = Clocks::new(&scene, config.color_error);
     let bounds = Bounds::new(tolerances, (near_lamps, clocks), view_volume, motions);
@@ -95,6 +99,9 @@ pub fn apply_with(
     if let Some(row) = placed.show(&mut scene, &shown, n_placed) {
         return Err(Error::OutOfRange { name: viewpoint::vertex_name(&scene, row), row });
     }
+    if config.measured.is_some() {
+        measured::stand_still(&mut scene, &mesh.points, motions);
+    }
 
     progress.check()?;
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
@@ -103,6 +110,9 @@ pub fn apply_with(
     // After cutting, so that neighbours are cut alike.
     if scene.has_changing_surfaces() {
         clocks::show(&mut scene, mesh.points.iter().map(|point| point.own_time).collect());
+    }
+    if config.measured.is_some() {
+        measured::forget_bodies(&mut scene);
     }
     if is_apart {
         ugscene::repeat_vertices(&mut scene, true);
@@ -117,6 +127,7 @@ pub fn apply_with(
         n_too_deep: outcome.n_too_deep,
         n_open_junctions,
         are_rounds_cut,
+        momentary_frame: carrier.clone().map(|name| (name, config.time)),
         is_full: outcome.is_full,
         max_pieces,
         remaining_errors,

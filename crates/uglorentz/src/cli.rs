@@ -2,6 +2,7 @@
 
 mod words;
 
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -15,7 +16,8 @@ use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
 
 use crate::{
-    Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure,
+    Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, MeasuredFrame, PROVENANCE, Pieces, Table,
+    measure,
 };
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
@@ -77,6 +79,16 @@ pub struct Args {
 
     #[command(flatten)]
     effects: EffectArgs,
+
+    /// Where bodies are at one time of a frame, not where they are seen: camera, scene, or a body
+    ///
+    /// Writes a scene at rest: bodies are contracted, clocks and other colours that change are
+    /// those of their own times then, and lamps are where they are. Any program draws it, ugphoton
+    /// too. The camera rests in the frame; -ti is the time of a clock at its eye, or that of the body.
+    /// A body that accelerates or turns carries the eye, and its frame is that of this moment.
+    #[arg(long, value_name = "FRAME", value_parser = frame,
+          conflicts_with_all = ["no_contraction", "no_flight_time", "at", "is_ahead"])]
+    measured: Option<MeasuredFrame>,
 
     /// Remove faces that are outside the view of the camera
     ///
@@ -187,6 +199,7 @@ impl ToolArgs for Args {
         "-sm",
         "-nc",
         "--no-flight-time",
+        "--measured",
         "-at",
         "-fo",
     ];
@@ -226,8 +239,18 @@ impl Args {
             smooth: self.smooth,
             repeat: self.repeat.repeats(),
             geometry: self.effects.geometry(),
+            zero: None,
+            measured: self.measured.clone(),
         })
     }
+}
+
+fn frame(word: &str) -> Result<MeasuredFrame, Infallible> {
+    Ok(match word {
+        "camera" => MeasuredFrame::Camera,
+        "scene" => MeasuredFrame::Scene,
+        name => MeasuredFrame::Body(name.to_owned()),
+    })
 }
 
 /// The format of a file of measurements.

@@ -1,6 +1,7 @@
 //! Options of `apply`: velocities, eye, time, subdivision.
 
 use glam::DVec3;
+use ugphysics::Event;
 use ugscene::{Anchor, CameraOptions, MotionOptions, ShownEffects};
 
 /// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and
@@ -56,6 +57,24 @@ pub struct Config {
     pub repeat: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
     pub geometry: ShownEffects,
+    /// The event at which the clocks of the camera's frame show 0, see [`MotionOptions::zero`].
+    pub zero: Option<Event>,
+    /// Where bodies are at one time of this frame, not where they are seen: a scene at rest
+    /// (`--measured`).
+    pub measured: Option<MeasuredFrame>,
+}
+
+/// A frame in whose time bodies are where they are. The eye rests in it. The time of the picture is
+/// that of a clock at the eye; in the frame of a body that of the body's own clock.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MeasuredFrame {
+    /// That of the camera.
+    Camera,
+    /// That of the scene.
+    Scene,
+    /// That of the body of this name; of one that accelerates or turns, that in which it is at rest
+    /// at this time of its own, when it carries the eye.
+    Body(String),
 }
 
 impl Default for Config {
@@ -77,6 +96,8 @@ impl Default for Config {
             smooth: false,
             repeat: false,
             geometry: ShownEffects::default(),
+            zero: None,
+            measured: None,
         }
     }
 }
@@ -91,7 +112,11 @@ impl Config {
             time: self.time,
             anchor: self.anchor,
             in_place: self.in_place,
-            geometry: self.geometry,
+            geometry: match self.measured {
+                Some(_) => ShownEffects { flight_time: false, ..ShownEffects::default() },
+                None => self.geometry,
+            },
+            zero: self.zero,
         }
     }
 }

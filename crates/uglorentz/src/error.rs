@@ -64,6 +64,21 @@ pub enum Error {
         /// Its row.
         row: usize,
     },
+    /// No body has the name of [`crate::MeasuredFrame::Body`].
+    #[error("no motion is called `{name}`{}", known(names))]
+    NoFrame {
+        /// The name.
+        name: String,
+        /// Names of bodies.
+        names: Vec<String>,
+    },
+    /// The body of [`crate::MeasuredFrame::Body`] accelerates or turns, and nothing states where on
+    /// it the eye is.
+    #[error("`{name}` accelerates or turns, and there is no camera that it could carry")]
+    NoFrameEye {
+        /// The name of the body.
+        name: String,
+    },
     /// The seen position of a vertex overflows.
     #[error("the seen position of vertex `{name}` is too far away for a number")]
     OutOfRange {
@@ -75,4 +90,9 @@ pub enum Error {
     /// The caller stopped the computation.
     #[error(transparent)]
     Stopped(#[from] Stopped),
+}
+
+/// The names that there are, in parentheses.
+fn known(names: &[String]) -> String {
+    if names.is_empty() { String::new() } else { format!(" (there are {})", names.join(", ")) }
 }

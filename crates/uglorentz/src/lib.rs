@@ -85,6 +85,7 @@ mod error;
 mod evenness;
 mod interior;
 mod junctions;
+mod measured;
 #[cfg(feature = "cli")]
 mod measurement;
 mod near_lamps;
@@ -103,7 +104,7 @@ mod world_line;
 pub use apply::{apply, apply_with};
 #[cfg(feature = "cli")]
 pub use cli::{Args, main};
-pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
+pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, MeasuredFrame, Pieces};
 pub use error::Error;
 #[cfg(feature = "cli")]
 pub use measurement::Table;

@@ -1,7 +1,7 @@
 //! Points of bodies, at rest and as seen.
 
 use glam::DVec3;
-use ugphysics::{Event, SeenLight, WorldLine, doppler_at};
+use ugphysics::{EmissionEvent, Event, SeenLight, WorldLine, doppler_at};
 pub(crate) use ugscene::RelativeMotion;
 use ugscene::{BodyId, RestPosition, ShownPoint};
 
@@ -31,7 +31,7 @@ impl Point {
     /// The point at `rest`, relative to the eye.
     pub(crate) fn new(motion: &RelativeMotion, body: BodyId, rest: DVec3) -> Point {
         if let Some(line) = motion.world_line() {
-            return Self::on_world_line(line, body, rest, None);
+            return Self::on_world_line((motion, line), body, rest, None);
         }
         let seen = match motion.is_at_rest() {
             true => rest,
@@ -46,7 +46,9 @@ impl Point {
         } else {
             1.0 / doppler_at(seen, motion.velocity())
         };
-        let (own_time, generation) = (-rest_distance, 0);
+        let own_time =
+            if motion.has_flight_time() { -rest_distance } else { motion.own_time_now(seen) };
+        let generation = 0;
         Point {
             rest,
             seen,
@@ -61,8 +63,14 @@ impl Point {
 
     /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
     /// time at emission.
-    fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3, guess: Option<f64>) -> Point {
+    fn on_world_line(
+        (motion, line): (&RelativeMotion, &WorldLine),
+        body: BodyId,
+        rest: DVec3,
+        guess: Option<f64>,
+    ) -> Point {
         let light = match guess {
+            _ if !motion.has_flight_time() => line.at_time(rest, 0.0).map(shown_now),
             Some(guess) => line.light_near(rest, Event::ORIGIN, guess),
             None => line.light(rest, Event::ORIGIN),
         };
@@ -107,7 +115,7 @@ impl Point {
     /// The point at `rest`, whose light left near the own time `guess`.
     fn near(motion: &RelativeMotion, body: BodyId, rest: DVec3, guess: f64) -> Point {
         match motion.world_line() {
-            Some(line) => Self::on_world_line(line, body, rest, Some(guess)),
+            Some(line) => Self::on_world_line((motion, line), body, rest, Some(guess)),
             None => Self::new(motion, body, rest),
         }
     }
@@ -119,4 +127,9 @@ impl Point {
             None => self.rest == DVec3::ZERO && !motion.is_at_rest(),
         }
     }
+}
+
+/// A point where it is at the time of the picture, as if its light were there at once.
+fn shown_now(EmissionEvent { own_time, event, velocity }: EmissionEvent) -> SeenLight {
+    SeenLight { own_time, event, inverse_doppler: 1.0 / doppler_at(event.x, velocity) }
 }

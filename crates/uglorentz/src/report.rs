@@ -22,6 +22,9 @@ pub struct Report {
     pub n_open_junctions: usize,
     /// Round faces of bodies on world lines became polygons of fixed accuracy.
     pub are_rounds_cut: bool,
+    /// The name of the body whose frame is that of a moment, since it accelerates or turns, and that
+    /// moment ([`crate::MeasuredFrame::Body`]).
+    pub momentary_frame: Option<(String, f64)>,
     /// Subdivision stopped at the limit of pieces.
     pub is_full: bool,
     /// The limit of pieces for a picture of this size.

@@ -168,6 +168,7 @@ impl MotionArgs {
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
             in_place: self.in_place,
             geometry: ShownEffects::default(),
+            zero: None,
         })
     }
 }

@@ -42,6 +42,10 @@ impl Words for Error {
                 "-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}: give fewer, or use -se, \
                  which subdivides only where it is visible"
             ),
+            Self::NoFrame { .. } => {
+                format!("{self}: --measured takes camera, scene, or the name of a motion")
+            }
+            Self::NoFrameEye { .. } => format!("{self}: give the place of the eye on it, -ep"),
             Self::VertexAtEye { .. } => format!("{self}: {AT_EYE}"),
             Self::OutOfRange { .. } => format!("{self}: {OUT_OF_RANGE}"),
             Self::TooManyPolygons(_) => {
@@ -61,6 +65,8 @@ impl Words for Error {
                     | Error::NoColorBound { .. }
                     | Error::NoLightBound { .. }
                     | Error::NoPieces
+                    | Error::NoFrame { .. }
+                    | Error::NoFrameEye { .. }
                     | Error::TooManyPieces { .. }
             );
         };
@@ -129,7 +135,12 @@ impl Report {
             "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
                 .to_owned()
         });
-        camera.into_iter().chain(junctions).chain(rounds).collect()
+        let moment = self.momentary_frame.as_ref().map(|(name, time)| {
+            format!(
+                "`{name}` accelerates or turns: measured in the frame in which it is at rest at its time {time}"
+            )
+        });
+        camera.into_iter().chain(junctions).chain(rounds).chain(moment).collect()
     }
 
     /// Statistics, for `-vb`.

@@ -202,3 +202,25 @@ fn what_meets_too_fast_is_refused() {
     let beta = scene.bodies.stated_velocity(scene.faces[0].body).unwrap().beta().y;
     assert!((beta - 1.0 / 3.0).abs() < 1e-6, "{beta}");
 }
+
+/// An eye that a body has carried away, and that rests for a moment: what rests in the scene is seen
+/// from its new place, also beside a body that turns there.
+#[test]
+fn eyes_that_turn_back_have_left() {
+    let motions =
+        "motion ship -acc .5 0 0 0 3 -acc -.5 0 0 3 9 ; motion wheel -at 0 20 0 -spin 0 0 .1 ;";
+    let faces = "v a 0 9 0 ; v b 1 9 0 ; v c 0 9 1 ; f (a b c) ; \
+                 v p 0 20 0 ; v q 1 20 0 ; v r 0 20 1 ; f (p q r) <wheel> ; cam -ep 0 0 0 -vc 0 9 0 <ship> ;";
+    // Twice (cosh aτ − 1)/a.
+    let way = 4.0 * (libm::cosh(1.5) - 1.0);
+    let config = Config { time: 6.0, pieces: Pieces::PerEdge(1), ..Config::default() };
+    for motion in [motions, &motions[..motions.find("motion wheel").unwrap_or_default()]] {
+        let is_alone = !motion.contains("wheel");
+        let faces = if is_alone { faces.replace("<wheel>", "") } else { faces.to_owned() };
+        let scene = seen(&format!("{motion}{faces}"), &config);
+        for (name, x) in [("a", 0.0), ("b", 1.0), ("p", 0.0)] {
+            let found = place(&scene, find(&scene, name)).x - ugscene::eye(&scene, None).x;
+            assert!((found - (x - way)).abs() < 1e-9, "{name}: {found}");
+        }
+    }
+}

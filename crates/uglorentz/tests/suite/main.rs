@@ -7,5 +7,6 @@ mod cli;
 mod common;
 mod cutting;
 mod geometry;
+mod measured;
 mod measurements;
 mod watertight;

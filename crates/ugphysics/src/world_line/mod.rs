@@ -484,6 +484,16 @@ impl WorldLine {
         self.moving().light(point, observer, Some(guess))
     }
 
+    /// The event of a point of the body at the time `t` of the frame of the scene, and its velocity
+    /// there: where the body is at this time, not where it is seen.  Eq. (P41)
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn at_time(&self, point: DVec3, t: f64) -> Result<EmissionEvent, WorldLineError> {
+        let (own_time, PointEvent { event, rate, clock }) = self.moving().at_time(point, t, 0.0)?;
+        Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
+    }
+
     /// The point of the body at an event, and the own time τ of A there: the inverse of
     /// [`WorldLine::event`], by the root of (X − z(τ))·u(τ) = 0, of which there is one before the
     /// horizon of the acceleration.  Eq. (P45)

@@ -123,6 +123,46 @@ fn decreasing_root(value: impl Fn(f64) -> (f64, f64)) -> f64 {
     own_time
 }
 
+/// The root of a function that decreases strictly, by Newton's method within a bracket, which is
+/// halved where a step leaves it. `value`: the function and its slope.
+fn root_from(
+    guess: f64,
+    value: impl Fn(f64) -> Result<(f64, f64), WorldLineError>,
+) -> Result<f64, WorldLineError> {
+    /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
+    const MOST_STEPS: usize = 2200;
+    let mut guess = guess;
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut reach = 1.0_f64.max(0.125 * guess.abs());
+    for _ in 0..MOST_STEPS {
+        let (f, slope) = value(guess)?;
+        let newton = guess - f / slope;
+        // The bracket does not contain its ends.
+        if f == 0.0 || newton == guess {
+            return Ok(guess);
+        }
+        if f > 0.0 {
+            low = guess
+        } else {
+            high = guess
+        }
+        let next = if newton > low && newton < high {
+            // Far from the root a step may pass over pieces of the motion.
+            newton.clamp(guess - reach, guess + reach)
+        } else if low.is_finite() && high.is_finite() {
+            0.5 * low + 0.5 * high
+        } else {
+            if f > 0.0 { guess + reach } else { guess - reach }
+        };
+        reach *= 2.0;
+        if is_last_step(next == newton, guess, next) || next == low || next == high {
+            return Ok(next);
+        }
+        guess = next;
+    }
+    Ok(guess)
+}
+
 /// True if a root is known to rounding after the step from `from` to `to`: the error after a step
 /// of Newton's method is about its square.
 fn is_last_step(is_newton: bool, from: f64, to: f64) -> bool {
@@ -300,52 +340,40 @@ impl Moving {
         Ok((own_time, at))
     }
 
-    /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly, by Newton's method
-    /// within a bracket, which is halved where a step leaves it.
+    /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|.
     pub(super) fn emission_time(
         &self,
         point: DVec3,
         observer: Event,
         guess: f64,
     ) -> Result<f64, WorldLineError> {
-        /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
-        const MOST_STEPS: usize = 2200;
         let value = |own_time: f64| -> Result<(f64, f64), WorldLineError> {
             let PointEvent { event, rate, .. } = self.point_event(point, own_time)?;
             let way = observer.x - event.x;
             let toward = unit_or_zero(way);
             Ok((observer.t - event.t - way.length(), toward.dot(rate.x) - rate.t))
         };
-        let mut guess = guess;
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut reach = 1.0_f64.max(0.125 * guess.abs());
-        for _ in 0..MOST_STEPS {
-            let (f, slope) = value(guess)?;
-            let newton = guess - f / slope;
-            // The bracket does not contain its ends.
-            if f == 0.0 || newton == guess {
-                return Ok(guess);
-            }
-            if f > 0.0 {
-                low = guess
-            } else {
-                high = guess
-            }
-            let next = if newton > low && newton < high {
-                // Far from the root a step may pass over pieces of the motion.
-                newton.clamp(guess - reach, guess + reach)
-            } else if low.is_finite() && high.is_finite() {
-                0.5 * low + 0.5 * high
-            } else {
-                if f > 0.0 { guess + reach } else { guess - reach }
-            };
-            reach *= 2.0;
-            if is_last_step(next == newton, guess, next) || next == low || next == high {
-                return Ok(next);
-            }
-            guess = next;
+        root_from(guess, value)
+    }
+
+    /// The own time at which a point is at the time `t`, and the event there.
+    pub(super) fn at_time(
+        &self,
+        point: DVec3,
+        t: f64,
+        guess: f64,
+    ) -> Result<(f64, PointEvent), WorldLineError> {
+        let own_time = root_from(guess, |own_time| {
+            let PointEvent { event, rate, .. } = self.point_event(point, own_time)?;
+            Ok((t - event.t, -rate.t))
+        })?;
+        let mut at = self.point_event(point, own_time)?;
+        // Rounding of the own time leaves a fast point at another time, by γ times as much.
+        let left = (t - at.event.t) / at.rate.t;
+        if left.is_finite() {
+            at.event = Event { t, x: at.event.x + left * at.rate.x };
         }
-        Ok(guess)
+        Ok((own_time, at))
     }
 
     /// Without acceleration, in the rest frame of A: the fixed point of τ = t_o − |x_o − ξ(τ)|.

@@ -426,3 +426,26 @@ fn own_times_at_a_time_of_the_scene() {
         }
     }
 }
+
+/// Where a point is at a time of the scene: the inverse of its event at an own time.
+#[test]
+fn points_are_where_they_are_at_a_time() {
+    let line = moving(
+        [0.5, -1.0, 0.25],
+        [0.3, 0.1, -0.2],
+        &[piece([0.2, 0.1, 0.0], [-1.0, 3.0])],
+        &[piece([0.0, 0.3, 0.1], ALWAYS)],
+    );
+    for point in [[0.5, -1.0, 0.25], [1.0, -1.5, 0.0], [-0.5, -0.5, 1.0]].map(DVec3::from) {
+        for own_time in [-20.0, -0.9, 0.0, 0.4, 2.9, 30.0] {
+            let event = line.event(point, own_time).unwrap();
+            let found = line.at_time(point, event.t).unwrap();
+            let off = (found.own_time - own_time).abs() / own_time.abs().max(1.0);
+            let away = (found.event.x - event.x).length() / event.x.length().max(1.0);
+            let velocity = line.velocity(point, own_time).unwrap().beta();
+            let change = (found.velocity.beta() - velocity).length();
+            assert_eq!(found.event.t, event.t);
+            assert!(off < 1e-12 && away < 1e-11 && change < 1e-10, "{off} {away} {change}");
+        }
+    }
+}

@@ -74,7 +74,7 @@ impl Words for MotionError {
             Self::WorldLine { .. } => self.to_string(),
             Self::Rounded { .. } => format!("{self}: leave it out, or choose an earlier -ti"),
             Self::PartialGeometry | Self::PartialTimes => {
-                format!("{self}: leave out -nc and --no-flight-time")
+                format!("{self}: leave out -nc and --no-flight-time, or give --measured FRAME")
             }
         }
     }

@@ -27,7 +27,7 @@ pub(super) fn count_from_eye(
         return Ok(());
     }
     let options = placement.options;
-    if !(options.geometry.contraction && options.geometry.flight_time) {
+    if !options.geometry.contraction {
         return Err(MotionError::PartialTimes);
     }
     let time = |(motion, frame): (&RelativeMotion, &InertialFrame)| {

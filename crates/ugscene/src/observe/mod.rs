@@ -15,7 +15,7 @@ mod world_lines;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::{Velocity, VelocityError, WorldLineError};
+use ugphysics::{Event, Lorentz, Velocity, VelocityError, WorldLineError};
 
 pub use camera_frame::{axes_from_scene, camera_velocity};
 pub use eye::{eye, seen_event, vertex_at_eye};
@@ -54,6 +54,9 @@ pub struct MotionOptions {
     pub in_place: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
     pub geometry: ShownEffects,
+    /// The event, in the frame of the scene, at which the clocks of the camera's frame show 0. By
+    /// default the eye at time 0 of the scene, so that `time` is that of a clock at the eye.
+    pub zero: Option<Event>,
 }
 
 /// The fixed point of the contraction of a body.
@@ -158,6 +161,18 @@ pub struct PlacedBodies {
     pub shifts: Vec<DVec3>,
 }
 
+impl MotionOptions {
+    /// The same with the time of a clock at the eye, which shows 0 at time 0 of the scene.
+    fn by_clock_at(&self, eye: DVec3, camera: Velocity) -> Self {
+        let mut options = self.clone();
+        if let Some(zero) = options.zero.take() {
+            let start = Event { t: 0.0, x: eye };
+            options.time -= Lorentz::boost(camera).inverse().apply(start - zero).t;
+        }
+        options
+    }
+}
+
 impl PlacedBodies {
     /// Places the bodies of a scene at rest. In the scene, velocities become those in the frame of
     /// the camera, each body gets its own vertices, lights that move with a body are shifted with
@@ -199,6 +214,7 @@ impl PlacedBodies {
         let default_camera =
             DefaultCamera::new(scene, camera, size, fitted).map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
+        let options = &options.by_clock_at(eye, of_camera);
         let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
         let frames = placement.frames(scene);

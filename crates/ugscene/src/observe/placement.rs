@@ -89,8 +89,10 @@ impl<'o> Placement<'o> {
         let mut shifts: Vec<DVec3> = motions.iter().zip(frames).map(shift).collect();
         // Unused vertices are part of the first body. They get the offset of a body of the same
         // motion.
-        let same_motion =
-            (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
+        let is_like_first = |&row: &usize| {
+            motions[row].world_line().is_none() && motions[row].in_scene() == motions[0].in_scene()
+        };
+        let same_motion = (1..motions.len()).find(is_like_first);
         if let Some(row) = same_motion {
             shifts[0] = shifts[row];
         }

@@ -44,8 +44,8 @@ impl RelativeMotion {
 
     /// The motion of a body on a world line, in the frame of the camera with the event of the eye
     /// as its origin.
-    pub(crate) fn on_world_line(line: WorldLine) -> RelativeMotion {
-        Self::new(line.initial_velocity(), ShownEffects::default()).with_line(Some(line))
+    pub(crate) fn on_world_line(line: WorldLine, geometry: ShownEffects) -> RelativeMotion {
+        Self::new(line.initial_velocity(), geometry).with_line(Some(line))
     }
 
     /// The same on a world line.
@@ -101,6 +101,11 @@ impl RelativeMotion {
         self.geometry.flight_time
     }
 
+    /// The effects that are shown.
+    pub fn effects(&self) -> ShownEffects {
+        self.geometry
+    }
+
     /// True if contraction is included.
     pub fn has_contraction(&self) -> bool {
         self.geometry.contraction
@@ -112,18 +117,32 @@ impl RelativeMotion {
     }
 
     /// Where a point is seen, and the own time at which its light left: on a world line that of the
-    /// body, else the time of the rest frame after the event of the eye.
+    /// body, else the time of the rest frame after the event of the eye. Without flight time, where
+    /// it is at the time of the picture, and its own time then.
     ///
     /// # Errors
     /// [`WorldLineError::Horizon`] if the point cannot move so.
     pub fn light(&self, rest: DVec3) -> Result<(DVec3, f64), WorldLineError> {
         match &self.line {
+            None if !self.has_flight_time() => {
+                let place = self.seen(RestPosition(rest)).0;
+                Ok((place, self.own_time_now(place)))
+            }
+            Some(line) if !self.has_flight_time() => {
+                line.at_time(rest, 0.0).map(|point| (point.event.x, point.own_time))
+            }
             None if self.is_at_rest() => Ok((rest, -rest.length())),
             None => Ok((self.seen(RestPosition(rest)).0, -self.boosted_rest(rest).length())),
             Some(line) => {
                 line.light(rest, Event::ORIGIN).map(|light| (light.event.x, light.own_time))
             }
         }
+    }
+
+    /// The time of the rest frame of an inertial body, after the event of the eye, at a place at the
+    /// time of the picture: t' = −γ β·x.
+    pub fn own_time_now(&self, place: DVec3) -> f64 {
+        -self.proper_speed() * place.dot(self.direction())
     }
 
     /// The rest position of what is seen at `seen`.

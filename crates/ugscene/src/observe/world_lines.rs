@@ -7,7 +7,7 @@ use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 use super::eye::eye_event;
 use super::placement::Placement;
 use super::{MOST_ROUNDED, MotionError};
-use crate::{BodyId, Carrier, RelativeMotion, Scene, StatedMotion};
+use crate::{BodyId, Carrier, RelativeMotion, Scene, ShownEffects, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
 ///
@@ -21,7 +21,7 @@ pub(super) fn place(
         return Ok(());
     }
     let &Placement { options, observer, eye, .. } = placement;
-    if !(options.geometry.contraction && options.geometry.flight_time) {
+    if !options.geometry.contraction {
         return Err(MotionError::PartialGeometry);
     }
     // Programs downstream know eye, time and velocity of the camera.
@@ -41,7 +41,7 @@ pub(super) fn place(
         let shift = match placement.anchor_point(body) {
             None => StatedMotion::NO_SHIFT,
             Some(anchor) if options.in_place && !line.passes_events() => {
-                in_place_shift(placed, anchor, (eye, observer.velocity))
+                in_place_shift(placed, anchor, options.geometry, (eye, observer.velocity))
                     .map_err(|error| impossible(scene, body, error))?
             }
             Some(anchor) => placed.anchor_shift(anchor),
@@ -70,7 +70,7 @@ pub(super) fn place(
     for body in scene.bodies.ids().filter(|&body| scene.bodies.is_on_world_line(body)) {
         let line = scene.bodies.motion(body).in_frame(frame, stated_eye).with_body_origin(eye);
         line.check_turn_seen(Event::ORIGIN).map_err(|error| impossible(scene, body, error))?;
-        motions[body.index()] = RelativeMotion::on_world_line(line);
+        motions[body.index()] = RelativeMotion::on_world_line(line, options.geometry);
     }
     Ok(())
 }
@@ -145,13 +145,17 @@ fn impossible(scene: &Scene, body: BodyId, error: ugphysics::WorldLineError) -> 
 }
 
 /// The displacement, at rest for the body at its own time 0, with which a camera with the velocity
-/// `camera` sees `anchor`, from `eye` at time 0, where the scene has it.  Eq. (P26)
+/// `camera` sees `anchor`, from `eye` at time 0, where the scene has it; or, without flight time,
+/// with which it is there.  Eq. (P26)
 fn in_place_shift(
     line: &WorldLine,
     anchor: DVec3,
+    geometry: ShownEffects,
     (eye, camera): (DVec3, Velocity),
 ) -> Result<Event, ugphysics::WorldLineError> {
-    let seen = crate::seen_event(anchor - eye);
+    let place = anchor - eye;
+    let seen =
+        if geometry.flight_time { crate::seen_event(place) } else { Event { t: 0.0, x: place } };
     let event = Lorentz::boost(camera).apply(seen) + Event { t: 0.0, x: eye };
     line.displacement_to(anchor, event)
 }

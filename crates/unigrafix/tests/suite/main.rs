@@ -42,6 +42,8 @@ fn every_type_of_a_config_has_a_name() {
         smooth: bool,
         repeat: bool,
         geometry: scene::ShownEffects,
+        zero: Option<physics::Event>,
+        measured: Option<lorentz::MeasuredFrame>,
     });
     parts!(doppler::Config::default() => doppler::Config {
         velocity: physics::Velocity,
@@ -166,6 +168,7 @@ fn every_type_within_has_a_name() {
         anchor: Option<scene::Anchor>,
         in_place: bool,
         geometry: scene::ShownEffects,
+        zero: Option<physics::Event>,
     });
     parts!(photon::RayOptions::default() => photon::RayOptions {
         depth: u32,
