@@ -11,10 +11,11 @@ use ugtests::documents::{Page, fill, shrunk, transcripts, with_options, written_
 use ugtests::{programs, scenes, tools, tracked};
 
 /// Pages with commands, the folder that they name, and the least number of commands.
-const PAGES: [(&str, Folder, usize); 13] = [
+const PAGES: [(&str, Folder, usize); 14] = [
     ("README.md", Folder::Examples, 18),
     ("docs/start.md", Folder::Empty, 9),
     ("docs/teaching.md", Folder::Examples, 12),
+    ("docs/concepts.md", Folder::Examples, 12),
     ("docs/gallery.md", Folder::Examples, 60),
     ("docs/pipeline.md", Folder::Examples, 30),
     ("docs/meshes.md", Folder::Examples, 7),
@@ -54,10 +55,11 @@ impl Folder {
 
 /// Beginnings of commands that are not run here, each with its page, and with what runs it or why
 /// nothing does.
-const RUN_ELSEWHERE: [(&str, &str, &str); 23] = [
+const RUN_ELSEWHERE: [(&str, &str, &str); 24] = [
     ("python3 -c", "crates/ugimage/font/README.md", "it made the font once"),
     ("$ ", "docs/mistakes.md", "programs_answer_as_the_pages_say"),
     ("$ ", "docs/teaching.md", "programs_answer_as_the_pages_say"),
+    ("$ ", "docs/concepts.md", "programs_answer_as_the_pages_say"),
     ("$ ", "README.md", ".ci/run runs the first two, tests of xtask install"),
     ("cargo test", "CONTRIBUTING.md", ".ci/run"),
     (".ci/run", "CONTRIBUTING.md", "itself"),
@@ -225,7 +227,7 @@ fn programs_answer_as_the_pages_say() {
     }
     let programs = programs::folder();
     let folder = Folder::Examples.make(programs);
-    for (page, least) in [("docs/mistakes.md", 10), ("docs/teaching.md", 11)] {
+    for (page, least) in [("docs/mistakes.md", 10), ("docs/teaching.md", 11), ("docs/concepts.md", 8)] {
         let transcripts = transcripts(page);
         assert!(transcripts.len() >= least, "{page}: {}", transcripts.len());
         for (command, answer) in transcripts {

@@ -15,12 +15,13 @@ use ugtests::scenes;
 use crate::programs;
 
 /// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 6] = [
+const PAGES: [(&str, [u32; 2]); 7] = [
     (README, [640, 480]),
     ("docs/gallery.md", [640, 480]),
     ("docs/start.md", [1280, 960]),
     ("docs/motion.md", [640, 480]),
     ("docs/teaching.md", [640, 480]),
+    ("docs/concepts.md", [640, 300]),
     ("docs/figures.md", [640, 480]),
 ];
 
