@@ -15,13 +15,14 @@ use ugscene::NAMED_SKIES;
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
-use crate::grammar::is_keyword;
 use crate::options::{Limit, Options};
 use crate::origin::Origin;
-use crate::reader::{self, RequestStatement};
+use crate::reader;
 use crate::refuse_errors;
 use crate::request::{Request, RequestError, RequestKind, relative_to, without_dots};
 use crate::source::{Images, LineMark, Source};
+use crate::statement::RequestStatement;
+use crate::statements::statement;
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
@@ -537,7 +538,7 @@ fn begins_like_a_scene(mut text: &[u8]) -> bool {
             Err(_) => return false,
         }
     }
-    word(text).is_ok_and(|(_, word)| is_keyword(word))
+    word(text).is_ok_and(|(_, word)| statement(word).is_some())
 }
 
 fn is_line_mark(text: &[u8]) -> bool {

@@ -13,9 +13,9 @@ use ugscene::{
 };
 
 use crate::diagnostic::Diagnostic;
-use crate::number_text::push_number;
 use crate::origin;
 use crate::reader::Document;
+use crate::row_writer::RowWriter;
 use crate::source::Span;
 use crate::suggest::nearest;
 use crate::token::{Input, escape, found, is_blank, number};
@@ -334,17 +334,13 @@ impl<'t> Words<'t> {
 }
 
 /// Writes the statement, parentheses included, without parts at rest and default values.
-pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
-    out.extend_from_slice(format!("({KEYWORD} {VERSION}").as_bytes());
+pub(crate) fn write(stage: &Stage, out: &mut RowWriter<'_>) {
+    out.text(&format!("({KEYWORD} {VERSION}"));
     let mut add = |is_stated: bool, words: &str, values: &[f64]| {
-        if !is_stated {
-            return;
-        }
-        out.push(b' ');
-        out.extend_from_slice(words.as_bytes());
-        for &value in values {
-            out.push(b' ');
-            push_number(out, numbers, value);
+        if is_stated {
+            out.text(" ");
+            out.text(words);
+            out.numbers(values);
         }
     };
     if let Some(seen) = stage.seen_geometry() {
@@ -378,5 +374,5 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
     if let Some(mixtures) = stage.mixtures {
         add(true, &format!("{MIXTURES} {}", mixtures.prefix()), &[]);
     }
-    out.push(b')');
+    out.text(")");
 }
