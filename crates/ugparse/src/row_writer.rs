@@ -38,6 +38,10 @@ impl<'s> RowWriter<'s> {
         self.name(self.scene.colors[color.index()].name);
     }
 
+    pub fn optional_color(&mut self, color: Option<ColorId>) {
+        color.into_iter().for_each(|color| self.color(color));
+    }
+
     /// Writes the keyword of a statement and its name, if it has one.
     pub fn begin(&mut self, keyword: &str, name: impl Into<Option<NameId>>) {
         self.text(keyword);
@@ -111,4 +115,10 @@ impl<'s> RowWriter<'s> {
         self.text(name.map_or("", |name| self.scene.names.get(name)));
         self.text(">");
     }
+}
+
+/// A row that has a statement.
+pub(crate) trait WriteRow {
+    /// Writes the statement without its `;`.
+    fn write(&self, out: &mut RowWriter<'_>);
 }

@@ -261,18 +261,18 @@ impl<'t> Scope<'t> {
         })
     }
 
-    /// Removes the faces of these rows, which must be sorted.
-    pub fn remove_faces(&mut self, rows: &[usize]) {
-        self.faces.remove(rows);
-        self.defaults.iter_mut().for_each(|default| renumber(&mut default.first_face, rows));
-        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.faces, rows));
-    }
-
-    /// Removes the wires of these rows, which must be sorted.
-    pub fn remove_wires(&mut self, rows: &[usize]) {
-        self.wires.remove(rows);
-        self.defaults.iter_mut().for_each(|default| renumber(&mut default.first_wire, rows));
-        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.wires, rows));
+    /// Removes the faces and wires of these rows, which must be sorted.
+    pub fn remove(&mut self, faces: &[usize], wires: &[usize]) {
+        self.faces.remove(faces);
+        self.wires.remove(wires);
+        for DefaultColor { first_face, first_wire, .. } in &mut self.defaults {
+            renumber(first_face, faces);
+            renumber(first_wire, wires);
+        }
+        for Call { before, .. } in &mut self.calls.rows {
+            renumber(&mut before.faces, faces);
+            renumber(&mut before.wires, wires);
+        }
     }
 
     /// Removes the escapes of these rows, in order.

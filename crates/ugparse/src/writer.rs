@@ -7,12 +7,9 @@ use ugscene::{BodyId, ColorId, MotionPath, Scene};
 
 use crate::chunked_writer::ChunkedWriter;
 use crate::passed_on::{Comment, Item, PassedOn};
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::stage_statement;
-use crate::statements::{
-    Along, write_camera, write_color, write_emission, write_face, write_light, write_mix,
-    write_motion, write_sky, write_surface, write_texture, write_times, write_vertex, write_wire,
-};
+use crate::statements::{Along, write_color, write_motion, write_times};
 
 /// Number of rows per piece of text.
 const BLOCK_ROWS: usize = 1 << 11;
@@ -77,7 +74,7 @@ impl<'s> Tables<'s, '_> {
             "",
             stage_statement::write,
         )?;
-        self.rows(scene.sky.as_slice(), |_| Item::Stage, ";", write_sky)?;
+        self.statements(scene.sky.as_slice(), |_| Item::Stage)?;
         let passed_on = &self.passed_on.statements;
         self.rows(passed_on, Item::PassedOn, "", |text, out| out.text(text))?;
         self.rows(&scene.colors, Item::Color, ";", |color, out| {
@@ -86,10 +83,10 @@ impl<'s> Tables<'s, '_> {
                 None => write_color(color, out),
             }
         })?;
-        self.rows(&scene.mixes, Item::Mix, ";", write_mix)?;
-        self.rows(&scene.textures, Item::Texture, ";", write_texture)?;
-        self.rows(&scene.emissions, Item::Emission, ";", write_emission)?;
-        self.rows(&scene.surfaces, Item::Surface, ";", write_surface)?;
+        self.statements(&scene.mixes, Item::Mix)?;
+        self.statements(&scene.textures, Item::Texture)?;
+        self.statements(&scene.emissions, Item::Emission)?;
+        self.statements(&scene.surfaces, Item::Surface)?;
         let mut along = Along::default();
         for &body in self.motions {
             if let Some(MotionPath::Along(path)) =
@@ -99,16 +96,25 @@ impl<'s> Tables<'s, '_> {
             }
         }
         self.rows(self.motions, Item::Motion, ";", |&body, out| write_motion(body, &along, out))?;
-        self.rows(&scene.vertices, Item::Vertex, ";", write_vertex)?;
-        self.rows(&scene.faces, Item::Face, ";", write_face)?;
-        self.rows(&scene.wires, Item::Wire, ";", write_wire)?;
-        self.rows(&scene.lights, Item::Light, ";", write_light)?;
-        self.rows(&scene.cameras, Item::Camera, ";", write_camera)?;
+        self.statements(&scene.vertices, Item::Vertex)?;
+        self.statements(&scene.faces, Item::Face)?;
+        self.statements(&scene.wires, Item::Wire)?;
+        self.statements(&scene.lights, Item::Light)?;
+        self.statements(&scene.cameras, Item::Camera)?;
         for (_, comment) in self.comments {
             self.chunked_writer.append(|out| write_comment(&comment.text, "\n", out));
         }
         self.chunked_writer.send()?;
         Ok(self.chunked_writer.n_sent)
+    }
+
+    /// Writes a statement per row.
+    fn statements(
+        &mut self,
+        rows: &'s [impl WriteRow + Sync],
+        item: fn(u32) -> Item,
+    ) -> io::Result<()> {
+        self.rows(rows, item, ";", WriteRow::write)
     }
 
     /// Writes one line per row, which `end` closes, in blocks on all threads.

@@ -4,7 +4,7 @@ use ugscene::{Camera, Projection};
 
 use super::grammar::{Grammar, Outcome, Valid};
 use super::options::{Argument, OptionForm, OptionTable, option, valid_option};
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::statement::MotionReference;
 
 pub(super) static OPTIONS: OptionTable<Camera> = OptionTable {
@@ -41,14 +41,16 @@ impl<'t> Grammar<'t, '_> {
 }
 
 /// Writes `cam`.
-pub(crate) fn write_camera(camera: &Camera, out: &mut RowWriter<'_>) {
-    out.begin("cam", camera.name);
-    OPTIONS.write(camera, out);
-    if let Some(body) = camera.carrier {
-        out.motion_name(body);
-    } else if let Some(velocity) = camera.velocity {
-        out.velocity(" <", velocity);
-        out.text(">");
+impl WriteRow for Camera {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin("cam", self.name);
+        OPTIONS.write(self, out);
+        if let Some(body) = self.carrier {
+            out.motion_name(body);
+        } else if let Some(velocity) = self.velocity {
+            out.velocity(" <", velocity);
+            out.text(">");
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use ugscene::{Color, ColorValue, NameId, SurfaceProperties, Tint};
 
 use super::grammar::{Grammar, NAME, Outcome, Valid, refuse};
 use super::known_spectra;
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::source::Span;
 use crate::token::number;
 
@@ -91,9 +91,9 @@ impl<'t> Grammar<'t, '_> {
 
     /// Samples, or a known spectrum in place of them.
     pub(super) fn spectrum(&mut self, reflects: bool) -> Outcome<'t> {
-        let first_at = self.at()?;
+        let first_at = self.rest;
         let name = self.optional_name()?;
-        let second_at = self.at()?;
+        let second_at = self.rest;
         let second = self.optional_name()?;
         // `c_refl wood` has the name of what it is.
         let known = second.or(name.filter(|_| number(second_at).is_err()));
@@ -161,7 +161,9 @@ pub(crate) fn write_color(color: &Color, out: &mut RowWriter<'_>) {
 }
 
 /// Writes `surf`.
-pub(crate) fn write_surface(surface: &SurfaceProperties, out: &mut RowWriter<'_>) {
-    out.begin("surf", surface.name);
-    out.numbers(&surface.numbers());
+impl WriteRow for SurfaceProperties {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin("surf", self.name);
+        out.numbers(&self.numbers());
+    }
 }

@@ -8,11 +8,9 @@ use ugscene::{
 use super::grammar::{Grammar, NAME, Outcome, Valid, refuse};
 use super::options::{Argument, OptionForm, OptionTable, option, option_word, valid_option};
 use crate::request::RequestKind;
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::statement::RequestStatement;
-use crate::token::{
-    Input, Parsed, Reason, backtrack, blank, fail, integer, number32, wanted, word,
-};
+use crate::token::{Input, Parsed, Reason, backtrack, fail, integer, number32, wanted, word};
 
 pub(super) static TIMES: OptionTable<ColorTable> = OptionTable {
     rows: &[
@@ -101,11 +99,13 @@ impl<'t> Grammar<'t, '_> {
 }
 
 /// Writes `c_mix`.
-pub(crate) fn write_mix(mix: &Mix, out: &mut RowWriter<'_>) {
-    out.begin_color("c_mix", mix.color);
-    for &(part, share) in &mix.parts {
-        out.color(part);
-        out.number(share);
+impl WriteRow for Mix {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin_color("c_mix", self.color);
+        for &(part, share) in &self.parts {
+            out.color(part);
+            out.number(share);
+        }
     }
 }
 
@@ -120,17 +120,21 @@ pub(crate) fn write_times(table: &ColorTable, out: &mut RowWriter<'_>) {
 }
 
 /// Writes `c_tex`; nothing for a picture inside a mesh from standard input, which has no name.
-pub(crate) fn write_texture(texture: &Texture, out: &mut RowWriter<'_>) {
-    let Some(file) = &texture.image.file else { return };
-    out.begin_color("c_tex", texture.color);
-    out.quoted(file);
-    TEXTURE.write(texture, out);
+impl WriteRow for Texture {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        let Some(file) = &self.image.file else { return };
+        out.begin_color("c_tex", self.color);
+        out.quoted(file);
+        TEXTURE.write(self, out);
+    }
 }
 
 /// Writes `c_emit`.
-pub(crate) fn write_emission(&[color, emitted]: &[ColorId; 2], out: &mut RowWriter<'_>) {
-    out.begin_color("c_emit", color);
-    out.color(emitted);
+impl WriteRow for [ColorId; 2] {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin_color("c_emit", self[0]);
+        out.color(self[1]);
+    }
 }
 
 /// The row of a picture.
@@ -220,7 +224,7 @@ impl Argument for AlphaMode {
 fn factor(input: Input<'_>) -> Parsed<'_, f32> {
     let (rest, value) = number32(input)?;
     if value < 0.0 {
-        return fail(blank(input)?.0, Reason::OutOfRange("a factor is 0 or more"));
+        return fail(input, Reason::OutOfRange("a factor is 0 or more"));
     }
     Ok((rest, value))
 }

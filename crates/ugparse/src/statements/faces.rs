@@ -10,7 +10,7 @@ use super::grammar::{Grammar, NAME, Outcome, refuse};
 use super::motions::write_motion_of;
 use super::options::zero_vector;
 use crate::numbered::Name;
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::source::Span;
 use crate::statement::NameKind;
 use crate::token::{label_text, mark, number, number32, point};
@@ -20,7 +20,7 @@ impl<'t> Grammar<'t, '_> {
         let name = self.name(NAME)?;
         let position = self.take(point)?;
         let color = self.optional_color()?;
-        let at = self.at()?;
+        let at = self.rest;
         let normal = self.optional(point)?;
         if normal == Some(DVec3::ZERO) {
             return refuse(at, zero_vector(3));
@@ -94,46 +94,52 @@ impl<'t> Grammar<'t, '_> {
 }
 
 /// Writes `v`.
-pub(crate) fn write_vertex(vertex: &Vertex, out: &mut RowWriter<'_>) {
-    out.begin("v", vertex.name);
-    out.point(vertex.position);
-    vertex.color.into_iter().for_each(|color| out.color(color));
-    vertex.normal.into_iter().for_each(|normal| out.point(normal));
-    if let Some([u, v]) = vertex.uv {
-        out.text(" (");
-        out.digits32(u);
-        out.number32(v);
-        out.text(")");
+impl WriteRow for Vertex {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin("v", self.name);
+        out.point(self.position);
+        out.optional_color(self.color);
+        self.normal.into_iter().for_each(|normal| out.point(normal));
+        if let Some([u, v]) = self.uv {
+            out.text(" (");
+            out.digits32(u);
+            out.number32(v);
+            out.text(")");
+        }
     }
 }
 
 /// Writes `f` or a round face.
-pub(crate) fn write_face(face: &Face, out: &mut RowWriter<'_>) {
-    out.begin(face.shape.keyword(), face.name);
-    write_contours(face.contours.clone(), out);
-    face.color.into_iter().for_each(|color| out.color(color));
-    let scene = out.scene;
-    match face.shading.map(|shading| scene.shadings[shading.index()]) {
-        None => {}
-        Some(Shading::Level(level)) => out.number(level),
-        Some(Shading::Surface(surface)) => out.name(scene.surfaces[surface.index()].name),
+impl WriteRow for Face {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin(self.shape.keyword(), self.name);
+        write_contours(self.contours.clone(), out);
+        out.optional_color(self.color);
+        let scene = out.scene;
+        match self.shading.map(|shading| scene.shadings[shading.index()]) {
+            None => {}
+            Some(Shading::Level(level)) => out.number(level),
+            Some(Shading::Surface(surface)) => out.name(scene.surfaces[surface.index()].name),
+        }
+        write_body(self.body, out);
     }
-    write_body(face.body, out);
 }
 
 /// Writes `w` or `label`.
-pub(crate) fn write_wire(wire: &Wire, out: &mut RowWriter<'_>) {
-    if let Some(text) = wire.text {
-        out.begin("label", wire.name);
-        out.quoted(out.scene.names.get(text));
-        out.text(" ");
-        write_corner(out.scene.contours.get(wire.contours.start)[0], out);
-    } else {
-        out.begin("w", wire.name);
-        write_contours(wire.contours.clone(), out);
-        wire.color.into_iter().for_each(|color| out.color(color));
+impl WriteRow for Wire {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        if let Some(text) = self.text {
+            out.begin("label", self.name);
+            out.quoted(out.scene.names.get(text));
+            out.text(" ");
+            write_corner(out.scene.contours.get(self.contours.start)[0], out);
+        } else {
+            out.begin("w", self.name);
+            write_contours(self.contours.clone(), out);
+            out.optional_color(self.color);
+        }
+        write_body(self.body, out);
     }
-    write_body(wire.body, out);
 }
 
 fn write_contours(rows: Range<u32>, out: &mut RowWriter<'_>) {

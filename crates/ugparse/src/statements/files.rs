@@ -5,7 +5,7 @@ use ugscene::StatedSky;
 use super::grammar::{Grammar, Outcome};
 use super::options::{OptionTable, option};
 use crate::request::RequestKind;
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::statement::FileStatement;
 use crate::token::FILE_NAME;
 
@@ -33,9 +33,12 @@ impl<'t> Grammar<'t, '_> {
 }
 
 /// Writes `sky`.
-pub(crate) fn write_sky(sky: &StatedSky, out: &mut RowWriter<'_>) {
-    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'/' | b'_');
-    let quote = if sky.file.bytes().all(is_plain) { "" } else { "\"" };
-    out.text(&format!("sky {quote}{}{quote}", sky.file));
-    SKY.write(&sky.turn, out);
+impl WriteRow for StatedSky {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        let is_plain =
+            |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'/' | b'_');
+        let quote = if self.file.bytes().all(is_plain) { "" } else { "\"" };
+        out.text(&format!("sky {quote}{}{quote}", self.file));
+        SKY.write(&self.turn, out);
+    }
 }

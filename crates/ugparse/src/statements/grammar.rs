@@ -69,7 +69,7 @@ impl Valid {
         let read = number(input)?;
         match self {
             Self::Range(least, most, rule) if read.1 < least || read.1 > most => {
-                refuse(blank(input)?.0, Reason::OutOfRange(rule))
+                refuse(input, Reason::OutOfRange(rule))
             }
             _ => Ok(read),
         }

@@ -6,7 +6,7 @@ use ugscene::{Beam, Light, LightKind, LightMotion};
 use super::grammar::{Grammar, Outcome, Valid, refuse};
 use super::motions::write_motion_of;
 use super::options::{Argument, OptionForm, OptionTable, option, option_word, zero_vector};
-use crate::row_writer::RowWriter;
+use crate::row_writer::{RowWriter, WriteRow};
 use crate::token::{Reason, point};
 
 pub(super) static BEAMS: OptionTable<Beam> = OptionTable {
@@ -34,7 +34,7 @@ impl<'t> Grammar<'t, '_> {
 
     /// `[x y z [radius [reference]]]`
     fn light_kind(&mut self) -> Outcome<'t, LightKind> {
-        let at = self.at()?;
+        let at = self.rest;
         let Some(vector) = self.optional(point)? else { return Ok(LightKind::Ambient) };
         let radius = self.optional_number(Valid::not_negative("a radius is 0 or more"))?;
         Ok(match radius {
@@ -50,7 +50,7 @@ impl<'t> Grammar<'t, '_> {
 
     /// Adds the beam of a light, if it has one.
     fn beam(&mut self, kind: LightKind) -> Outcome<'t, LightKind> {
-        let at = self.at()?;
+        let at = self.rest;
         let wrong = |rule| refuse(at, Reason::OutOfRange(rule));
         let mut own = Beam::Even;
         match (option_word(at).map(|(_, word)| word), kind) {
@@ -79,23 +79,25 @@ impl<'t> Grammar<'t, '_> {
 }
 
 /// Writes `l`.
-pub(crate) fn write_light(light: &Light, out: &mut RowWriter<'_>) {
-    out.begin("l", light.name);
-    out.number(light.intensity);
-    let (mut place, mut beam) = (DVec3::ZERO, Beam::Even);
-    match light.kind {
-        LightKind::Ambient => {}
-        LightKind::Directional(toward) => out.point(toward),
-        LightKind::Local { position, radius, reference, beam: own } => {
-            (place, beam) = (position, own);
-            out.point(position);
-            out.number(radius);
-            out.numbers(reference.as_slice());
+impl WriteRow for Light {
+    fn write(&self, out: &mut RowWriter<'_>) {
+        out.begin("l", self.name);
+        out.number(self.intensity);
+        let (mut place, mut beam) = (DVec3::ZERO, Beam::Even);
+        match self.kind {
+            LightKind::Ambient => {}
+            LightKind::Directional(toward) => out.point(toward),
+            LightKind::Local { position, radius, reference, beam: own } => {
+                (place, beam) = (position, own);
+                out.point(position);
+                out.number(radius);
+                out.numbers(reference.as_slice());
+            }
         }
+        out.optional_color(self.color);
+        BEAMS.write(&beam, out);
+        self.motion.body().into_iter().for_each(|body| write_motion_of(body, place, out));
     }
-    light.color.into_iter().for_each(|color| out.color(color));
-    BEAMS.write(&beam, out);
-    light.motion.body().into_iter().for_each(|body| write_motion_of(body, place, out));
 }
 
 impl Argument for Beam {

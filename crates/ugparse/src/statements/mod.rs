@@ -21,13 +21,9 @@ use ugscene::FaceShape;
 
 use crate::request::RequestKind;
 
-pub(crate) use cameras::write_camera;
-pub(crate) use colors::{write_color, write_surface};
-pub(crate) use derived_colors::{write_emission, write_mix, write_texture, write_times};
-pub(crate) use faces::{write_face, write_vertex, write_wire};
-pub(crate) use files::write_sky;
+pub(crate) use colors::write_color;
+pub(crate) use derived_colors::write_times;
 pub(crate) use grammar::{END, Grammar, NAME, Outcome};
-pub(crate) use lights::write_light;
 pub(crate) use motions::{Along, write_motion};
 use options::Forms;
 

@@ -65,7 +65,7 @@ impl<'t> Grammar<'t, '_> {
         let name = self.name(NAME)?;
         let mut motion = MotionStatement { name, ..MotionStatement::default() };
         loop {
-            let at = self.at()?;
+            let at = self.rest;
             let word = option_word(at).ok();
             let curve = word.and_then(|(rest, word)| {
                 let is_it = |kind: &&CurveKind| kind.word().as_bytes() == word;
@@ -103,7 +103,7 @@ impl<'t> Grammar<'t, '_> {
     fn curve_numbers(&mut self, kind: &CurveKind) -> Outcome<'t, Vec<f64>> {
         let mut numbers = Vec::new();
         for row in 0..kind.n_numbers() {
-            let at = self.at()?;
+            let at = self.rest;
             if kind.axis == Some(row) && point(at)?.1 == DVec3::ZERO {
                 return refuse(at, zero_vector(3));
             }
@@ -135,7 +135,7 @@ impl<'t> Grammar<'t, '_> {
     /// `x y z`, a velocity in fractions of c, or `x y z -gamma γ`, its direction and Lorentz
     /// factor.
     fn velocity(&mut self) -> Outcome<'t, Velocity> {
-        let at = self.at()?;
+        let at = self.rest;
         let vector = self.take(point)?;
         let mut gamma = None;
         if let Ok((_, b"gamma")) = option_word(self.rest) {
@@ -208,7 +208,7 @@ impl Argument for Event {
 impl Argument for Vec<Piece> {
     fn read<'t>(&mut self, of: OptionForm, grammar: &mut Grammar<'t, '_>) -> Outcome<'t> {
         let vector = grammar.take(point)?;
-        let at = grammar.at()?;
+        let at = grammar.rest;
         let [from, to] = match grammar.optional(number)? {
             Some(from) => [from, grammar.take(number)?],
             None => [default_begin(first_word(of.form)), f64::INFINITY],

@@ -96,7 +96,7 @@ impl<T> OptionTable<T> {
 
     /// Reads the option that follows; returns false if there is none.
     pub fn read_one<'t>(&self, row: &mut T, grammar: &mut Grammar<'t, '_>) -> Outcome<'t, bool> {
-        let at = grammar.at()?;
+        let at = grammar.rest;
         let Some(word) = grammar.optional(option_word)? else { return Ok(false) };
         let mut rows = self.rows.iter();
         let Some(OptionRow(of, place)) =

@@ -7,24 +7,12 @@ use super::grammar::{Grammar, Outcome, Valid, refuse};
 use super::options::{OptionTable, option, option_word, zero_vector};
 use crate::scope::as_str;
 use crate::source::Span;
-use crate::token::{Input, Reason, point};
+use crate::token::{Reason, point};
 
 pub(super) static INNER: OptionTable<f64> = OptionTable {
     rows: &[option("inner radius", |inner| inner)],
     expected: "`-inner`, a color, `<` or `;`",
 };
-
-/// The numbers of a round face, and where they are.
-struct Stated<'t> {
-    shape: FaceShape,
-    /// The centre, or one end of the axis, and what follows.
-    points: [DVec3; 2],
-    radius: f64,
-    /// Of a disc with a hole, its radius by that of the disc; else 0.
-    inner: f64,
-    axis_at: Input<'t>,
-    radius_at: Input<'t>,
-}
 
 impl<'t> Grammar<'t, '_> {
     /// Numbers, or contours in place of them.
@@ -34,8 +22,7 @@ impl<'t> Grammar<'t, '_> {
         if self.at()?.starts_with(b"(") {
             return self.round_of_contours(shape, name);
         }
-        let stated = self.round_numbers(shape)?;
-        let round = stated.shape().or_else(|(at, reason)| refuse(at, reason))?;
+        let round = self.round_of_numbers(shape)?;
         // As of the name of a vertex, the statement is that around it.
         let place = name.unwrap_or(Span { start: behind_keyword, end: behind_keyword });
         let word = name.map_or(shape.keyword(), |name| as_str(name.of(self.text)));
@@ -59,11 +46,15 @@ impl<'t> Grammar<'t, '_> {
         self.behind_shape(name, shape, contours)
     }
 
-    fn round_numbers(&mut self, mut shape: FaceShape) -> Outcome<'t, Stated<'t>> {
+    fn round_of_numbers(&mut self, mut shape: FaceShape) -> Outcome<'t, RoundShape> {
         let origin = self.take(point)?;
-        let axis_at = self.at()?;
-        let second = if shape == FaceShape::Sphere { DVec3::Z } else { self.take(point)? };
-        let radius_at = self.at()?;
+        let axis_at = self.rest;
+        let (axis, none) = match shape {
+            FaceShape::Sphere => (DVec3::Z, NO_LENGTH),
+            FaceShape::Disc => (self.take(point)?, zero_vector(3)),
+            _ => (self.take(point)? - origin, NO_LENGTH),
+        };
+        let radius_at = self.rest;
         let radius = self.number(Valid::positive("a radius is above 0"))?;
         let mut inner = 0.0;
         let before = self.rest;
@@ -76,40 +67,30 @@ impl<'t> Grammar<'t, '_> {
                 return refuse(option_word(before)?.0, Reason::OutOfRange(rule));
             }
         }
-        Ok(Stated { shape, points: [origin, second], radius, inner, axis_at, radius_at })
-    }
-}
-
-impl<'t> Stated<'t> {
-    /// The shape, or what is wrong, and where.
-    fn shape(&self) -> Result<RoundShape, (Input<'t>, Reason)> {
-        let &Self { shape, points: [origin, second], radius, inner, .. } = self;
-        let is_flat = matches!(shape, FaceShape::Disc | FaceShape::Ring);
-        let axis = if matches!(shape, FaceShape::Cylinder | FaceShape::Tube) {
-            second - origin
-        } else {
-            second
-        };
         if axis == DVec3::ZERO {
-            return Err((self.axis_at, if is_flat { zero_vector(3) } else { NO_LENGTH }));
+            return refuse(axis_at, none);
         }
-        let axes = match shape {
-            FaceShape::Sphere => DMat3::from_diagonal(DVec3::splat(radius)),
-            _ => {
-                let direction = ugphysics::unit_or_zero(axis);
-                let (a, b) = across(direction);
-                let along = if is_flat { radius * direction } else { axis };
-                DMat3::from_cols(radius * a, radius * b, along)
-            }
-        };
-        let round = RoundShape { shape, origin, axes, inner };
+        let round = RoundShape { shape, origin, axes: axes(shape, axis, radius), inner };
         // Positions are rounded: a shape that is too small far away is lost.
         let placed = RoundShape::from_corners(shape, &round.corners());
         let is_kept = |placed: RoundShape| {
             (placed.stretch() / radius - 1.0).abs() < MOST_ROUNDED
                 && (placed.inner - inner).abs() <= MOST_ROUNDED * inner.min(1.0 - inner)
         };
-        if placed.is_some_and(is_kept) { Ok(round) } else { Err((self.radius_at, OUT_OF_RANGE)) }
+        if placed.is_some_and(is_kept) { Ok(round) } else { refuse(radius_at, OUT_OF_RANGE) }
+    }
+}
+
+/// The axes of a round face. `axis`: from its one end to the other, or the direction of a disc.
+fn axes(shape: FaceShape, axis: DVec3, radius: f64) -> DMat3 {
+    let direction = ugphysics::unit_or_zero(axis);
+    let (a, b) = across(direction);
+    match shape {
+        FaceShape::Sphere => DMat3::from_diagonal(DVec3::splat(radius)),
+        FaceShape::Disc | FaceShape::Ring => {
+            DMat3::from_cols(radius * a, radius * b, radius * direction)
+        }
+        _ => DMat3::from_cols(radius * a, radius * b, axis),
     }
 }
 

@@ -44,8 +44,9 @@ fn the_manual_has_the_form_of_every_statement() {
     let page = read("docs/unigrafix.md");
     let form = |line: &str| {
         let mut words = line.strip_prefix("    ")?.split(' ').filter(|word| !word.is_empty());
-        let statement = STATEMENTS.iter().find(|other| Some(other.keyword) == words.clone().next())?;
-        let is_form = matches!(words.nth(1)?, "ID" | "[ID]" | "FILE" | "[ID][ID]");
+        let statement =
+            STATEMENTS.iter().find(|other| Some(other.keyword) == words.clone().next())?;
+        let is_form = matches!(words.nth(1)?, "ID" | "[ID]" | "FILE");
         is_form.then_some(statement)
     };
     let mut found = BTreeSet::new();
@@ -72,11 +73,13 @@ fn the_manual_has_every_option() {
     for statement in STATEMENTS {
         for form in statement.options() {
             let (word, _) = form.split_once(' ').unwrap_or((form, ""));
-            let is_whole = [format!("`-{form}`"), format!("-{form}]"), format!("-{form}  ")];
+            let is_whole = [format!("`-{form}`"), format!("-{form}]"), format!("-{form} ")];
             let has_own_column = format!("`-{word}`");
             assert!(
                 is_whole.iter().any(|form| pages.contains(form))
-                    || pages.lines().any(|line| line.starts_with('|') && line.contains(&has_own_column)),
+                    || pages
+                        .lines()
+                        .any(|line| line.starts_with('|') && line.contains(&has_own_column)),
                 "{}: docs/unigrafix.md and docs/motion.md lack `-{form}`",
                 statement.keyword
             );
@@ -105,6 +108,16 @@ fn messages_name_every_option() {
                 assert!(message.contains(&format!("-{word}")), "{message} lacks -{word}");
             }
         }
+    }
+}
+
+/// `ugmeshfile` recognises a scene by its first word.
+#[test]
+fn scenes_are_told_from_meshes_by_every_keyword() {
+    for Statement { keyword, .. } in STATEMENTS {
+        let text = format!("{keyword} x ;");
+        let format = ugmeshfile::MeshFormat::detect("<stdin>", text.as_bytes());
+        assert_eq!(format, Some(ugmeshfile::MeshFormat::Ug), "{text}");
     }
 }
 
