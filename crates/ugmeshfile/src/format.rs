@@ -130,7 +130,12 @@ fn is_json(bytes: &[u8]) -> bool {
 /// The key that every glTF document has.
 const ASSET: &[u8] = b"\"asset\"";
 
-const UG_KEYWORDS: [&str; 11] = ["v", "w", "f", "c", "c_rgb", "l", "cam", "def", "end", "i", "a"];
+/// The keywords of scenes; a test of `ugparse` finds missing ones.
+const UG_KEYWORDS: [&str; 29] = [
+    "v", "w", "label", "f", "sphere", "cylinder", "tube", "disc", "c", "c_rgb", "c_xyz", "c_bb",
+    "c_spd", "c_refl", "c_mix", "c_time", "c_tex", "c_emit", "surf", "l", "cam", "motion", "sky",
+    "def", "end", "i", "a", "include", "execute",
+];
 
 /// True for binary STL. It has no magic number, and its header may even begin with `solid`, but its
 /// length is determined by its triangle count.

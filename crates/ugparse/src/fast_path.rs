@@ -1,7 +1,7 @@
 //! A fast parser for the two most frequent statements: vertices and faces in their simple forms.
 //!
 //! All other input, such as a comment between two words, a normal or an error, is left to the
-//! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
+//! [grammar](crate::statements), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
 use ugscene::{BodyId, ColorId, Face, Vertex, VertexId};

@@ -15,13 +15,14 @@ use ugscene::NAMED_SKIES;
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
-use crate::grammar::is_keyword;
 use crate::options::{Limit, Options};
 use crate::origin::Origin;
-use crate::reader::{self, RequestStatement};
+use crate::reader;
 use crate::refuse_errors;
 use crate::request::{Request, RequestError, RequestKind, relative_to, without_dots};
 use crate::source::{Images, LineMark, Source};
+use crate::statement::RequestStatement;
+use crate::statements::statement;
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
@@ -105,16 +106,44 @@ const PATH: &[u8] = b"-path";
 /// The most bytes of the file of a picture.
 const MOST_IMAGE_BYTES: u64 = 1 << 28;
 
+/// What messages say about requests of a kind.
+struct Words {
+    not_replaced: &'static str,
+    /// Where it is requested.
+    here: &'static str,
+    remedy: &'static str,
+}
+
+fn words(kind: RequestKind) -> Words {
+    match kind {
+        RequestKind::Include => Words {
+            not_replaced: "files are not included here",
+            here: "included here",
+            remedy: "names are relative to the file that includes",
+        },
+        RequestKind::Image | RequestKind::Sky => Words {
+            not_replaced: "pictures are not read here",
+            here: "read here",
+            remedy: "names of pictures are relative to the file that has the statement, or to the current folder in a pipe",
+        },
+        RequestKind::Path => Words {
+            not_replaced: "tables are not read here",
+            here: "read here",
+            remedy: "names are relative to the file that has the motion",
+        },
+        RequestKind::Execute => Words {
+            not_replaced: "programs are not run here",
+            here: "run here",
+            remedy: "names are relative to the file that has the statement; the file must be a program",
+        },
+    }
+}
+
 /// The error for a statement in a text that was not passed through [`include`].
 pub(crate) fn not_replaced(statement: &RequestStatement) -> Diagnostic {
-    let (message, label) = match statement.kind {
-        RequestKind::Include => ("files are not included here", "asks for a file"),
-        RequestKind::Image | RequestKind::Sky => ("pictures are not read here", "asks for a file"),
-        RequestKind::Path => ("tables are not read here", "asks for a file"),
-        RequestKind::Execute => ("programs are not run here", "asks for a program"),
-    };
-    Diagnostic::error(statement.span, message)
-        .label(label)
+    let what = if statement.kind == RequestKind::Execute { "a program" } else { "a file" };
+    Diagnostic::error(statement.span, words(statement.kind).not_replaced)
+        .label(format!("asks for {what}"))
         .help("put its text here, or use a program that reads files")
 }
 
@@ -421,14 +450,10 @@ impl Inclusion<'_> {
 
     fn not_a_scene(&self, statement: RequestStatement) -> Diagnostics {
         let shown = self.source().slice(statement.file);
-        let text = match statement.kind {
-            RequestKind::Include | RequestKind::Path | RequestKind::Image | RequestKind::Sky => {
-                format!("file `{shown}`")
-            }
-            RequestKind::Execute => format!("the output of `{shown}`"),
-        };
+        let is_run = statement.kind == RequestKind::Execute;
+        let text = if is_run { "the output of" } else { "file" };
         let help = "it must begin with a statement or a comment, or be a mesh; errors in it are shown if it is read by itself";
-        self.refused(statement, format!("{text} is not UniGrafix"), help)
+        self.refused(statement, format!("{text} `{shown}` is not UniGrafix"), help)
     }
 
     /// Loads the bytes requested by a statement of the innermost open text.
@@ -455,7 +480,11 @@ impl Inclusion<'_> {
         let room = limits.get(limit).saturating_sub(n_before).min(most);
         let kind = statement.kind;
         let text = (self.loader)(&Request { kind, path: &path, room }).map_err(|error| {
-            self.refused(statement, complaint(kind, &path, &error), remedy(kind, &error))
+            let remedy = match error {
+                RequestError::Failed { .. } => "run it separately to see the error",
+                RequestError::System(_) => words(kind).remedy,
+            };
+            self.refused(statement, complaint(kind, &path, &error), remedy)
         })?;
         if text.len() as u64 > room {
             let what = if is_image { "picture" } else { "text" };
@@ -484,11 +513,7 @@ impl Inclusion<'_> {
 
 /// An error at a request.
 fn finding(statement: RequestStatement, message: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(statement.file, message).label(match statement.kind {
-        RequestKind::Include => "included here",
-        RequestKind::Path | RequestKind::Image | RequestKind::Sky => "read here",
-        RequestKind::Execute => "run here",
-    })
+    Diagnostic::error(statement.file, message).label(words(statement.kind).here)
 }
 
 /// What went wrong, for messages, with the beginning of what a program says.
@@ -503,20 +528,6 @@ fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
             let colon = if complaint.is_empty() { "" } else { ": " };
             let beginning: String = complaint.chars().take(200).collect();
             format!("program `{path}` failed with {status}{colon}{beginning}")
-        }
-    }
-}
-
-fn remedy(kind: RequestKind, error: &RequestError) -> &'static str {
-    match kind {
-        _ if matches!(error, RequestError::Failed { .. }) => "run it separately to see the error",
-        RequestKind::Include => "names are relative to the file that includes",
-        RequestKind::Image | RequestKind::Sky => {
-            "names of pictures are relative to the file that has the statement, or to the current folder in a pipe"
-        }
-        RequestKind::Path => "names are relative to the file that has the motion",
-        RequestKind::Execute => {
-            "names are relative to the file that has the statement; the file must be a program"
         }
     }
 }
@@ -537,7 +548,7 @@ fn begins_like_a_scene(mut text: &[u8]) -> bool {
             Err(_) => return false,
         }
     }
-    word(text).is_ok_and(|(_, word)| is_keyword(word))
+    word(text).is_ok_and(|(_, word)| statement(word).is_some())
 }
 
 fn is_line_mark(text: &[u8]) -> bool {

@@ -48,7 +48,6 @@ mod face_warnings;
 mod fast_path;
 #[cfg(feature = "cli")]
 mod foreign;
-mod grammar;
 mod include;
 #[cfg(feature = "cli")]
 mod mesh;
@@ -67,12 +66,14 @@ mod report;
 mod request;
 mod resolve;
 mod rgb_as_hsv;
+mod row_writer;
 mod rows;
 mod scope;
 mod sky_statement;
 mod source;
 mod stage_statement;
 mod statement;
+mod statements;
 mod suggest;
 mod tidy;
 mod token;
@@ -96,6 +97,7 @@ pub use request::{Request, RequestError, RequestKind, name_pictures};
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};
 pub use stage_statement::comes_through_a_pipe;
+pub use statements::{STATEMENTS, Statement};
 pub use tidy::tidy;
 pub use writer::{write, write_to, write_with};
 
@@ -137,7 +139,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let mut findings = Vec::new();
     let mut document = reader::read(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
-    let sky = sky_statement::take(text, &mut document, &mut findings);
+    let sky = sky_statement::take(&mut document, &mut findings);
     // A scene without the files of its pictures and its sky is complete.
     let is_text = |kind: RequestKind| !matches!(kind, RequestKind::Image | RequestKind::Sky);
     let texts = document.requests.iter().filter(|request| is_text(request.kind));

@@ -1,23 +1,5 @@
 //! Numbers as text that reads back to the same bits.
 
-use ugphysics::Velocity;
-
-/// Writes `x y z`, or `x y z -gamma γ`, after `mark`.
-pub(crate) fn push_velocity(
-    out: &mut Vec<u8>,
-    numbers: &mut zmij::Buffer,
-    mut mark: &'static str,
-    velocity: Velocity,
-) {
-    let (vector, gamma) = velocity.stated();
-    let parts = vector.to_array().map(|part| (" ", part));
-    for (between, part) in parts.into_iter().chain(gamma.map(|gamma| (" -gamma ", gamma))) {
-        out.extend_from_slice(if mark.is_empty() { between } else { mark }.as_bytes());
-        push_number(out, numbers, part);
-        mark = "";
-    }
-}
-
 /// Writes the shortest decimal that reads back to the same bits.
 pub(crate) fn push_number(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, value: f64) {
     // Not `-0.0`, whose sign the general method keeps.

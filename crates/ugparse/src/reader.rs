@@ -5,15 +5,14 @@ use ugscene::Stage;
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
-use crate::grammar::{Grammar, NAME, file};
 use crate::options::{Limit, Options};
-use crate::request::RequestKind;
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::statement::{FileStatement, NameKind, PathStatement, Statement};
+use crate::statement::{NameKind, RequestStatement};
+use crate::statements::{END, Grammar, NAME, Outcome, Read, Statement, statement};
 use crate::token::{
-    FILE_NAME, Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found,
-    identifier, integer, line_end, mark, skip_statement, wanted, without_mark, word,
+    Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer,
+    line_end, mark, skip_statement, wanted, without_mark, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -40,20 +39,6 @@ pub(crate) struct CommentSpan {
     pub text: Span,
     /// True if it begins on the line on which a statement ends.
     pub trailing: bool,
-}
-
-/// `include FILE ;`, `execute FILE ;`, or the file of `-path FILE`, `c_tex` or `sky`; the text
-/// that replaces it takes the place of `span`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RequestStatement {
-    pub kind: RequestKind,
-    pub span: Span,
-    /// The file name without quotes.
-    pub file: Span,
-    /// Of a path, the name of its motion.
-    pub motion: Option<Span>,
-    /// Of a picture within a mesh, its row.
-    pub row: Option<u32>,
 }
 
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
@@ -185,56 +170,33 @@ impl<'t> Reader<'t, '_> {
         }
         let (body, keyword) = word(input)
             .map_err(|_| SyntaxError { at: input, reason: Reason::Expected("a statement") })?;
-        match keyword {
-            b"def" => self.begin_definition(input, body),
-            b"end" => self.end_definition(input, body),
-            b"include" => self.request(RequestKind::Include, input, body),
-            b"execute" => self.request(RequestKind::Execute, input, body),
-            b"#" | b"#line" => match self.line_mark(body) {
-                Some((rest, mark)) => {
-                    self.document.line_marks.push(mark);
-                    Ok(rest)
-                }
-                None => self.unknown_statement(input, keyword, body),
-            },
-            _ => self.plain_statement(input, keyword, body),
+        match (statement(keyword), keyword) {
+            (Some(Statement { read: Some(read), .. }), _) => self.row(*read, input, body),
+            (Some(_), b"def") => self.begin_definition(input, body),
+            (Some(_), _) => self.end_definition(input, body),
+            (None, b"#" | b"#line") if let Some((rest, mark)) = self.line_mark(body) => {
+                self.document.line_marks.push(mark);
+                Ok(rest)
+            }
+            _ => self.unknown_statement(input, keyword, body),
         }
     }
 
-    fn plain_statement(
-        &mut self,
-        input: Input<'t>,
-        keyword: Input<'t>,
-        body: Input<'t>,
-    ) -> Rest<'t> {
-        let row = self.open[self.open.len() - 1];
+    /// Parses a statement that is a row of its scope.
+    fn row(&mut self, read: Read, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
+        let start = self.position(input);
         self.names.clear();
-        let scope = &mut self.document.scopes[row];
-        let mut grammar = Grammar { text: self.text, scope, names: &mut self.names };
-        let Some(parsed) = grammar.statement(keyword, body) else {
-            return self.unknown_statement(input, keyword, body);
+        let mut grammar = Grammar {
+            text: self.text,
+            start,
+            rest: body,
+            scope: &mut self.document.scopes[self.open[self.open.len() - 1]],
+            names: &mut self.names,
+            requests: &mut self.document.requests,
         };
-        let (rest, statement) = parsed?;
-        let (rest, ()) = mark(b';', "`;`")(rest)?;
-        let span = self.span(input, rest);
-        let request = match &statement {
-            Statement::Texture(texture, file) => {
-                Some((RequestKind::Image, *file, None, texture.image.row))
-            }
-            Statement::Motion(motion) => match motion.path {
-                Some(PathStatement::File(file)) => {
-                    Some((RequestKind::Path, file, Some(motion.name), None))
-                }
-                _ => None,
-            },
-            Statement::Sky(sky) => Some((RequestKind::Sky, sky.file, None, None)),
-            _ => None,
-        };
-        if let Some((kind, FileStatement { span, name: file }, motion, row)) = request {
-            self.document.requests.push(RequestStatement { kind, span, file, motion, row });
-        }
-        self.document.first_statement.get_or_insert(span.start);
-        self.document.scopes[row].add(self.text, span, statement);
+        read(&mut grammar)?;
+        let rest = grammar.rest;
+        self.document.first_statement.get_or_insert(start);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
@@ -263,15 +225,6 @@ impl<'t> Reader<'t, '_> {
                 .help("remove it if no program downstream reads it"),
         );
         self.pass_on(input, rest);
-        Ok(rest)
-    }
-
-    /// `include FILE ;` or `execute FILE ;`
-    fn request(&mut self, kind: RequestKind, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
-        let (rest, FileStatement { name: file, .. }) = file(self.text, body, FILE_NAME)?;
-        let (rest, ()) = mark(b';', "`;`")(rest)?;
-        let span = self.span(input, rest);
-        self.document.requests.push(RequestStatement { kind, span, file, motion: None, row: None });
         Ok(rest)
     }
 
@@ -403,13 +356,17 @@ impl<'t> Reader<'t, '_> {
         match keyword {
             b"def" => identifier(body).is_ok_and(|(rest, _)| semicolon(rest)),
             b"end" => semicolon(body),
-            _ => match read_alone(self.text, keyword, body, &mut Vec::new()) {
-                // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
-                Some(Ok((rest, _))) => {
-                    let in_contour = matches!(skip_blank(rest), [b'(' | b')', ..]);
-                    semicolon(rest) || (!matches!(keyword, b"cam" | b"motion") && !in_contour)
+            _ => match read_alone(self.text, body, keyword, &mut Vec::new()) {
+                Some(Ok(())) => true,
+                Some(Err(error)) => {
+                    // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
+                    let SyntaxError { at, reason } = error.into();
+                    let in_contour = matches!(skip_blank(at), [b'(' | b')', ..]);
+                    reason == Reason::Expected(END)
+                        && !matches!(keyword, b"cam" | b"motion")
+                        && !in_contour
                 }
-                _ => false,
+                None => false,
             },
         }
     }
@@ -514,21 +471,23 @@ impl<'t> Reader<'t, '_> {
     }
 }
 
-/// Parses a statement without adding it to a scope.
+/// Parses a statement into a scope of its own.
 fn read_alone<'t>(
     text: &'t [u8],
+    rest: Input<'t>,
     keyword: Input<'t>,
-    body: Input<'t>,
     names: &mut Vec<(NameKind, Span)>,
-) -> Option<Parsed<'t, Statement>> {
-    Grammar { text, scope: &mut Scope::default(), names }.statement(keyword, body)
+) -> Option<Outcome<'t>> {
+    let (scope, requests) = (&mut Scope::default(), &mut Vec::new());
+    let read = statement(keyword)?.read?;
+    Some(read(&mut Grammar { text, start: 0, rest, scope, names, requests }))
 }
 
 /// The names in the statement at `span`, which has no syntax errors, in the order of the text.
 pub(crate) fn names_in(text: &[u8], span: Span) -> Vec<(NameKind, Span)> {
     let mut names = Vec::new();
     if let Ok((body, keyword)) = word(&text[span.start as usize..]) {
-        drop(read_alone(text, keyword, body, &mut names));
+        drop(read_alone(text, body, keyword, &mut names));
     }
     names
 }

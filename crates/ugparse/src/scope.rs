@@ -11,15 +11,15 @@ use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
     Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, Mix,
-    NameId, Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Vertex, VertexId,
-    Wire,
+    NameId, Names, RoundShape, Shading, ShadingId, StatedSky, SurfaceProperties, Texture, Vertex,
+    VertexId, Wire,
 };
 
 use crate::diagnostic::Diagnostic;
 use crate::numbered::{Name, NumberedNames};
 use crate::rows::{Named, Rows};
 use crate::source::Span;
-use crate::statement::{Call, Counts, MotionReference, MotionStatement, SkyStatement, Statement};
+use crate::statement::{Call, Counts, MotionReference, MotionStatement};
 use crate::token::{skip_statement, statement_start};
 
 /// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a
@@ -57,7 +57,7 @@ pub(crate) struct Scope<'t> {
     pub wires: Rows<Wire>,
     pub lights: Rows<Light>,
     pub cameras: Rows<Camera>,
-    pub skies: Rows<SkyStatement>,
+    pub skies: Rows<StatedSky>,
     /// Escapes and unknown statements.
     pub passed_on: Rows<String>,
 
@@ -79,7 +79,7 @@ pub(crate) struct Scope<'t> {
     pub definitions: FxHashMap<&'t [u8], (usize, Span)>,
     /// Errors for names that are defined twice.
     pub duplicates: Vec<Diagnostic>,
-    /// Number of statements other than calls.
+    /// Number of statements.
     pub n_statements: u64,
 }
 
@@ -113,41 +113,16 @@ impl<'t> Scope<'t> {
         }
     }
 
-    /// Adds the statement at `span`.
-    pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement) {
-        self.n_statements += u64::from(!matches!(statement, Statement::Call(_)));
-        match statement {
-            Statement::Vertex(name, vertex) => {
-                self.push_vertex(Name::new(name.of(text)), name, vertex)
-            }
-            Statement::Face(face) => self.faces.push(face, span),
-            Statement::Wire(wire) => self.wires.push(wire, span),
-            Statement::Color(name, color) => self.add_color(text, span, name, color),
-            Statement::Mix(mix) => self.mixes.push(mix, span),
-            Statement::Table(name, table) => {
-                let value = ColorValue::Rgb([1.0; 3]);
-                let color = Color { name: NameId::from_index(0), value, translucency: 0.0 };
-                self.add_color(text, span, Some(name), color);
-                self.color_tables.push(table, span);
-            }
-            Statement::Texture(texture, _) => self.textures.push(texture, span),
-            Statement::Emission(colors) => self.emissions.push(colors, span),
-            Statement::Surface(name, surface) => {
-                let twice = self.surfaces.push(text, Some(name), surface, span);
-                self.note_duplicate("surface", name.of(text), twice);
-            }
-            Statement::Light(light) => self.lights.push(light, span),
-            Statement::Camera(camera) => self.cameras.push(camera, span),
-            Statement::Motion(motion) => {
-                // Also those that nothing moves with are in the scene. Carriers follow when all
-                // statements are read, so that what is written, with motions first, is read in the
-                // same order.
-                self.bodies.named(text, motion.name);
-                self.motions.push(*motion, span);
-            }
-            Statement::Sky(sky) => self.skies.push(sky, span),
-            Statement::Call(call) => self.calls.push(call, span),
-        }
+    /// Adds a surface. `name`, not that of `surface`, is its name.
+    pub fn add_surface(
+        &mut self,
+        text: &'t [u8],
+        span: Span,
+        name: Span,
+        surface: SurfaceProperties,
+    ) {
+        let twice = self.surfaces.push(text, Some(name), surface, span);
+        self.note_duplicate("surface", name.of(text), twice);
     }
 
     /// Adds an escape or an unknown statement.
@@ -224,7 +199,8 @@ impl<'t> Scope<'t> {
         ColorValue::Spectrum { reflects, start, end: self.samples.len() as u32 }
     }
 
-    fn add_color(&mut self, text: &'t [u8], span: Span, name: Option<Span>, color: Color) {
+    /// Adds a colour. `name`, not that of `color`, is its name.
+    pub fn add_color(&mut self, text: &'t [u8], span: Span, name: Option<Span>, color: Color) {
         if name.is_none() {
             self.defaults.push(DefaultColor {
                 color: self.colors.table.len() as u32,
@@ -285,18 +261,18 @@ impl<'t> Scope<'t> {
         })
     }
 
-    /// Removes the faces of these rows, which must be sorted.
-    pub fn remove_faces(&mut self, rows: &[usize]) {
-        self.faces.remove(rows);
-        self.defaults.iter_mut().for_each(|default| renumber(&mut default.first_face, rows));
-        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.faces, rows));
-    }
-
-    /// Removes the wires of these rows, which must be sorted.
-    pub fn remove_wires(&mut self, rows: &[usize]) {
-        self.wires.remove(rows);
-        self.defaults.iter_mut().for_each(|default| renumber(&mut default.first_wire, rows));
-        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.wires, rows));
+    /// Removes the faces and wires of these rows, which must be sorted.
+    pub fn remove(&mut self, faces: &[usize], wires: &[usize]) {
+        self.faces.remove(faces);
+        self.wires.remove(wires);
+        for DefaultColor { first_face, first_wire, .. } in &mut self.defaults {
+            renumber(first_face, faces);
+            renumber(first_wire, wires);
+        }
+        for Call { before, .. } in &mut self.calls.rows {
+            renumber(&mut before.faces, faces);
+            renumber(&mut before.wires, wires);
+        }
     }
 
     /// Removes the escapes of these rows, in order.

@@ -13,9 +13,9 @@ use ugscene::{
 };
 
 use crate::diagnostic::Diagnostic;
-use crate::number_text::push_number;
 use crate::origin;
 use crate::reader::Document;
+use crate::row_writer::RowWriter;
 use crate::source::Span;
 use crate::suggest::nearest;
 use crate::token::{Input, escape, found, is_blank, number};
@@ -122,28 +122,16 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
         contraction: true,
         flight_time: true,
     };
-    while let Some(word) = words.next_of_part() {
-        words.once(word)?;
+    const OPTIONS: [&str; 7] =
+        ["eye", "time", "camera-velocity", "no-contraction", "no-flight-time", COLORS, MIXTURES];
+    while let Some(word) = words.next_of_part()? {
         match word.as_str() {
             "eye" => eye = Some(words.point()?),
             "time" => seen.time = words.number()?,
             "camera-velocity" => seen.camera_velocity = words.velocity(word)?,
             "no-contraction" => seen.contraction = false,
             "no-flight-time" => seen.flight_time = false,
-            _ => {
-                return Err(unknown(
-                    word,
-                    &[
-                        "eye",
-                        "time",
-                        "camera-velocity",
-                        "no-contraction",
-                        "no-flight-time",
-                        COLORS,
-                        MIXTURES,
-                    ],
-                ));
-            }
+            _ => return Err(unknown(word, &OPTIONS)),
         }
     }
     seen.eye =
@@ -162,8 +150,7 @@ fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
     let (mut law, mut flux, mut infrared) = (None, true, InfraredRule::Measured);
     let spectra = |flux, infrared| ColorScale::Spectra { flux, infrared };
     let mut seen = SeenColors { scale: spectra(flux, infrared), doppler: true, lights: false };
-    while let Some(word) = words.next_of_part() {
-        words.once(word)?;
+    while let Some(word) = words.next_of_part()? {
         match word.as_str() {
             "law" if !is_spectral => {
                 let name = words.choice(&Brightness::ALL.map(Brightness::name))?;
@@ -252,25 +239,25 @@ impl<'t> Words<'t> {
         self.end - self.rest.len() as u32
     }
 
-    /// The next word, if it belongs to the current part.
-    fn next_of_part(&mut self) -> Option<Word<'t>> {
+    /// The next word, if it belongs to the current part. It must not be repeated.
+    fn next_of_part(&mut self) -> Result<Option<Word<'t>>, Diagnostic> {
         let before = self.rest;
         let word = self.next();
         if word.is_some_and(|word| [GEOMETRY, COLORS, MIXTURES].contains(&word.as_str())) {
             self.rest = before;
-            return None;
+            return Ok(None);
         }
-        word
+        word.map(|word| self.once(word)).transpose()
     }
 
     /// Refuses a repeated key word.
-    fn once(&mut self, word: Word<'t>) -> Result<(), Diagnostic> {
+    fn once(&mut self, word: Word<'t>) -> Result<Word<'t>, Diagnostic> {
         if let Some(first) = self.known.iter().find(|known| known.text == word.text) {
             let message = format!("`{}` is given twice", word.as_str());
             return Err(Diagnostic::again([word.span, first.span], message, "remove one of them"));
         }
         self.known.push(word);
-        Ok(())
+        Ok(word)
     }
 
     /// One of several words.
@@ -334,17 +321,13 @@ impl<'t> Words<'t> {
 }
 
 /// Writes the statement, parentheses included, without parts at rest and default values.
-pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
-    out.extend_from_slice(format!("({KEYWORD} {VERSION}").as_bytes());
+pub(crate) fn write(stage: &Stage, out: &mut RowWriter<'_>) {
+    out.text(&format!("({KEYWORD} {VERSION}"));
     let mut add = |is_stated: bool, words: &str, values: &[f64]| {
-        if !is_stated {
-            return;
-        }
-        out.push(b' ');
-        out.extend_from_slice(words.as_bytes());
-        for &value in values {
-            out.push(b' ');
-            push_number(out, numbers, value);
+        if is_stated {
+            out.text(" ");
+            out.text(words);
+            out.numbers(values);
         }
     };
     if let Some(seen) = stage.seen_geometry() {
@@ -378,5 +361,5 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
     if let Some(mixtures) = stage.mixtures {
         add(true, &format!("{MIXTURES} {}", mixtures.prefix()), &[]);
     }
-    out.push(b')');
+    out.text(")");
 }

@@ -1,13 +1,11 @@
-//! Parsed statements: rows for the tables of a scope, where the name of a colour, surface or vertex
-//! is its number there. Other names are spans of the text.
+//! Parsed statements that become no row of a scene, or not before names are resolved. Names are
+//! spans of the text.
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{
-    Camera, Color, ColorId, ColorTable, CurveKind, Face, Light, Mix, SurfaceProperties, Texture,
-    Vertex, Wire,
-};
+use ugscene::{ColorId, CurveKind};
 
+use crate::request::RequestKind;
 use crate::source::Span;
 use crate::transform::Transform;
 
@@ -19,27 +17,6 @@ pub(crate) enum NameKind {
     Color,
     Surface,
     Vertex,
-}
-
-/// A statement; names in spans are not set in the row.
-#[derive(Debug)]
-pub(crate) enum Statement {
-    Vertex(Span, Vertex),
-    Face(Face),
-    Wire(Wire),
-    Color(Option<Span>, Color),
-    Mix(Mix),
-    /// A colour, too; its own value is set when the colours of all scopes are joined.
-    Table(Span, ColorTable),
-    Texture(Texture, FileStatement),
-    /// A colour, and the one that it emits.
-    Emission([ColorId; 2]),
-    Surface(Span, SurfaceProperties),
-    Light(Light),
-    Camera(Camera),
-    Motion(Box<MotionStatement>),
-    Sky(SkyStatement),
-    Call(Call),
 }
 
 /// `<x y z …>`, a velocity, or `<NAME>`, a motion.
@@ -113,13 +90,24 @@ pub(crate) struct FileStatement {
     pub name: Span,
 }
 
-/// A sky.
-#[derive(Debug)]
-pub(crate) struct SkyStatement {
-    /// Its file.
-    pub file: FileStatement,
-    /// Turns about x, y and z, degrees.
-    pub turn: [f64; 3],
+impl FileStatement {
+    pub fn request(self, kind: RequestKind) -> RequestStatement {
+        RequestStatement { kind, span: self.span, file: self.name, motion: None, row: None }
+    }
+}
+
+/// `include FILE ;`, `execute FILE ;`, or the file of `-path FILE`, `c_tex` or `sky`; the text
+/// that replaces it takes the place of `span`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RequestStatement {
+    pub kind: RequestKind,
+    pub span: Span,
+    /// The file name without quotes.
+    pub file: Span,
+    /// Of a path, the name of its motion.
+    pub motion: Option<Span>,
+    /// Of a picture within a mesh, its row.
+    pub row: Option<u32>,
 }
 
 /// An instance, or an array of them.

@@ -4,10 +4,10 @@
 //! the order of statements and the comments within them.
 
 use crate::diagnostics::Diagnostics;
-use crate::grammar::is_keyword;
 use crate::number_text::push_number;
 use crate::reader;
 use crate::source::Source;
+use crate::statements::statement;
 use crate::token::{
     Input, comment, escape, found, integer, is_blank, line_end, number, skip_statement, word,
 };
@@ -112,7 +112,7 @@ impl Layout {
             self.depth = self.depth.saturating_sub(1);
         }
         self.begin_line();
-        if is_keyword(keyword) {
+        if statement(keyword).is_some() {
             let rest = self.words(input, keyword);
             self.depth += usize::from(keyword == b"def");
             return rest;

@@ -34,16 +34,6 @@ pub(crate) enum Reason {
     Impossible(usize, &'static str, &'static str),
 }
 
-impl<'a> nom::error::ParseError<Input<'a>> for SyntaxError<'a> {
-    fn from_error_kind(at: Input<'a>, _: nom::error::ErrorKind) -> Self {
-        Self { at, reason: Reason::Expected("something else") }
-    }
-
-    fn append(_: Input<'a>, _: nom::error::ErrorKind, other: Self) -> Self {
-        other
-    }
-}
-
 impl<'a> From<Err<Self>> for SyntaxError<'a> {
     /// The parsers have the whole text, so input is never incomplete.
     fn from(error: Err<Self>) -> Self {

@@ -1,8 +1,8 @@
 //! The text of messages about single words and statements.
 
 use crate::diagnostic::{Diagnostic, Setting};
-use crate::grammar::{NAME, form, is_keyword, keywords};
 use crate::source::Span;
+use crate::statements::{NAME, STATEMENTS, statement};
 use crate::suggest::nearest;
 use crate::token::{Input, NAME_LETTERS, word};
 
@@ -10,6 +10,7 @@ use crate::token::{Input, NAME_LETTERS, word};
 pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     let finding = Diagnostic::error(span, format!("`{}` is not a statement", shorten(word)));
     let lower = word.to_ascii_lowercase();
+    let keywords: Vec<&str> = STATEMENTS.iter().map(|statement| statement.keyword).collect();
     match word {
         b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
         [b'#', ..] => finding
@@ -19,17 +20,19 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
         [b'/', b'/' | b'*', ..] => finding
             .label("neither a statement nor a comment")
             .help("comments are in braces: `{ like this }`"),
-        _ if is_keyword(&lower) => finding
+        _ if statement(&lower).is_some() => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
-        _ if let Some(keyword) = nearest(word, keywords().map(str::as_bytes)) => {
+        _ if let Some(keyword) =
+            nearest(word, keywords.iter().map(|keyword| keyword.as_bytes())) =>
+        {
             finding.label("unknown statement").help(format!("did you mean `{keyword}`?"))
         }
         _ => finding
             .label("unknown statement")
             .help(format!(
                 "a statement begins with one of {}, or `(` for an escape",
-                keywords().collect::<Vec<_>>().join(" ")
+                keywords.join(" ")
             ))
             .setting(Setting::Lax),
     }
@@ -64,8 +67,8 @@ pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
 
 /// Adds the syntax of the statement that begins at `input`.
 pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
-    match word(input).ok().and_then(|(_, keyword)| form(keyword)) {
-        Some(usage) => finding.help(format!("the form is `{usage}`")),
+    match word(input).ok().and_then(|(_, keyword)| statement(keyword)) {
+        Some(statement) => finding.help(format!("the form is `{}`", statement.form())),
         None => finding,
     }
 }

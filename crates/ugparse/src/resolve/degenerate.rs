@@ -37,8 +37,7 @@ pub(crate) fn remove_degenerate(
     };
     let of_wire = |&row: &usize| short_wire(text, wires.spans[row]);
     let found = flat.iter().map(of_face).chain(short.iter().map(of_wire)).collect();
-    scope.remove_faces(&flat);
-    scope.remove_wires(&short);
+    scope.remove(&flat, &short);
     found
 }
 

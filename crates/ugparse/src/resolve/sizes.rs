@@ -191,6 +191,7 @@ impl Scope<'_> {
         let paths =
             self.motions.rows.iter().map(n_events).sum::<usize>() * SampledPath::BYTES_PER_EVENT;
         let bytes = (self.table_bytes() + paths) as u64;
-        Size { statements: self.n_statements, corners, names, name_bytes, bytes, ..Size::default() }
+        let statements = self.n_statements - self.calls.len() as u64;
+        Size { statements, corners, names, name_bytes, bytes, ..Size::default() }
     }
 }

@@ -50,10 +50,8 @@ impl MotionPath {
 /// A kind of curve: the option that states it, and its world line.
 #[derive(Debug)]
 pub struct CurveKind {
-    /// The option without `-`.
-    pub word: &'static str,
-    /// How many numbers follow it.
-    pub n_numbers: usize,
+    /// The option without `-`, and the numbers that follow it, as the manual shows them.
+    pub form: &'static str,
     /// Where among them a vector begins that is not zero.
     pub axis: Option<usize>,
     line: Line,
@@ -65,8 +63,7 @@ type Line = fn(DVec3, &[f64], &[Piece]) -> Result<WorldLine, WorldLineError>;
 impl CurveKind {
     /// All kinds.
     pub const ALL: &'static [Self] = &[Self {
-        word: "orbit",
-        n_numbers: 7,
+        form: "orbit cx cy cz nx ny nz ω",
         axis: Some(3),
         // The centre, the axis, and the angular velocity in the time of the frame.
         line: |at, numbers, spins| {
@@ -74,6 +71,16 @@ impl CurveKind {
             WorldLine::orbiting(at, center, axis, numbers[6], spins)
         },
     }];
+
+    /// The option without `-`.
+    pub fn word(&self) -> &'static str {
+        self.form.split(' ').next().unwrap_or_default()
+    }
+
+    /// How many numbers follow it.
+    pub fn n_numbers(&self) -> usize {
+        self.form.split(' ').count() - 1
+    }
 
     /// All options of a motion, for error messages.
     pub const OPTIONS: &'static str =
@@ -85,7 +92,7 @@ impl CurveKind {
 
 impl PartialEq for CurveKind {
     fn eq(&self, other: &Self) -> bool {
-        self.word == other.word
+        self.form == other.form
     }
 }
 

@@ -77,11 +77,17 @@ impl SurfaceProperties {
         },
     ];
 
-    /// The syntax of the statement, for error messages.
-    pub const FORM: &'static str = "surf ID kd ks kt [n [exponent [absorption]]] ;";
-
     /// The count of numbers that every `surf` statement has.
     pub const N_REQUIRED: usize = 3;
+
+    /// The properties that a statement with these numbers gives.
+    pub fn from_numbers(numbers: &[f64]) -> Self {
+        let mut properties = Self::default();
+        for (number, value) in Self::NUMBERS.iter().zip(numbers) {
+            *(number.of)(&mut properties) = *value;
+        }
+        properties
+    }
 
     /// The shortest list of numbers from which a statement gives these properties.
     pub fn numbers(&self) -> Vec<f64> {
