@@ -121,6 +121,7 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
         camera_velocity: Velocity::ZERO,
         contraction: true,
         flight_time: true,
+        is_whole: false,
     };
     while let Some(word) = words.next_of_part() {
         words.once(word)?;
@@ -130,6 +131,7 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
             "camera-velocity" => seen.camera_velocity = words.velocity(word)?,
             "no-contraction" => seen.contraction = false,
             "no-flight-time" => seen.flight_time = false,
+            "whole" => seen.is_whole = true,
             _ => {
                 return Err(unknown(
                     word,
@@ -139,6 +141,7 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
                         "camera-velocity",
                         "no-contraction",
                         "no-flight-time",
+                        "whole",
                         COLORS,
                         MIXTURES,
                     ],
@@ -357,6 +360,7 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
         }
         add(!seen.contraction, "no-contraction", &[]);
         add(!seen.flight_time, "no-flight-time", &[]);
+        add(seen.is_whole, "whole", &[]);
     }
     if let ColorStage::AsSeen(seen) | ColorStage::Deferred(seen) = &stage.colors {
         let is_deferred = stage.deferred_colors().is_some();
