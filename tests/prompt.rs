@@ -435,7 +435,7 @@ fn textures_are_drawn_alike() {
     );
     check(
         &shell,
-        "uglorentz -vel .5 0 0 crate.ug | ugdoppler -ir",
+        "uglorentz -vel .5 0 0 -se .1 crate.ug | ugdoppler -ir",
         "plain colour; leave out -vel, -gw, -ir",
     );
     // ugdoppler leaves textures to rays, which draw as without it.
@@ -445,15 +445,27 @@ fn textures_are_drawn_alike() {
         shell.run(&format!("{moved} | ugrainbow -qt -xc {shift} {view} > exact.png"));
         assert!(pixels("pipe.png") == pixels("exact.png"), "{shift}");
     }
-    for (picture, remedy) in
-        [("ugrainbow -cb", "--no-textures"), ("ugmesh -dt ply", "--no-textures")]
-    {
-        let output = shell.output(&format!("{moved} | ugdoppler -qt | {picture}"));
-        assert!(!output.status.success());
-        assert!(String::from_utf8_lossy(&output.stderr).contains(remedy));
-        let output = shell.output(&format!("{moved} | ugdoppler -qt --no-textures | {picture}"));
-        assert!(output.status.success() && !output.stdout.is_empty());
+    let refused = |pipe: &str, remedy: &str| {
+        let output = shell.output(pipe);
+        assert!(!output.status.success(), "{pipe}");
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(error.contains(remedy), "{pipe}: {error}");
+    };
+    refused(&format!("{moved} | ugdoppler -qt --no-textures"), "give uglorentz -se 0.1");
+    for picture in ["ugrainbow -cb", "ugrainbow -vec -dt svg", "ugmesh -dt ply"] {
+        refused(&format!("{moved} | ugdoppler -qt | {picture}"), "--no-textures");
+        refused(&format!("{moved} | {picture}"), "give uglorentz -se 0.1");
+        let cut = format!("{moved} -se .1 | ugdoppler -qt --no-textures | {picture}");
+        let output = shell.output(&cut);
+        assert!(output.status.success() && !output.stdout.is_empty(), "{cut}");
     }
+    // Whole faces are drawn as those that were cut, but for rounding at a few edges.
+    let cut = format!("{moved} -se .1 | ugdoppler -qt | ugrainbow -qt {view} > cut.png");
+    shell.run(&cut);
+    shell.run(&format!("{moved} | ugdoppler -qt | ugrainbow -qt {view} > whole.png"));
+    let (cut, whole) = (pixels("cut.png"), pixels("whole.png"));
+    let n_other = cut.iter().zip(&whole).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    assert!(n_other <= cut.len() / 1000, "{n_other} of {}", cut.len());
     check(
         &shell,
         "uglorentz -vel .5 0 0 < crate.gltf",
@@ -467,7 +479,9 @@ fn textures_are_drawn_alike() {
     printed.lines().for_each(|line| drop(shell.run(line)));
     assert!(pixels("film_2.png") == pixels("shell_2.png"));
     let [plain, _] = shell.run(&format!("{film} -cb --print -fo shell_%d.png crate.gltf"));
-    assert!(plain.contains("--no-textures"), "{plain}");
+    assert!(plain.contains("--no-textures") && plain.contains("-se 0.1"), "{plain}");
+    let [exact, _] = shell.run(&format!("{film} -xc --print -fo shell_%d.png crate.gltf"));
+    assert!(exact.contains("uglorentz -sd 1") || exact.contains("-sd 1 "), "{exact}");
     // A scene in a folder, of which programs see only that.
     std::fs::create_dir(shell.path("sub")).unwrap();
     shell.write("sub/a.ug", b"c w 1; c_tex w \"../crate_texture1.png\";");

@@ -154,10 +154,12 @@ function commands({ size = sides(), file = null, isDraft = false } = {}) {
   const bodies = [...motion, ...time, ...cameraWords()];
   if (isRays()) return [['ugphoton', ...bodies, '-look', look(), ...lens, state.name, ...output]];
   // The camera of a scene without one suits the shape of the picture.
-  const shape = 3 * size[0] === 4 * size[1] || state.camera?.isMoved ? [] : ['-sz', ...size.map(String)];
+  const shape = !isDraft && (3 * size[0] === 4 * size[1] || state.camera?.isMoved) ? [] : ['-sz', ...size.map(String)];
+  // Pieces of a draft are as large as its pixels allow.
+  const pieces = isDraft ? ['-se', '.15px', '-sc', '1'] : [];
   const tinted = look() === 'shape' ? [] : [['ugdoppler', ...(look() === 'light' ? ['-look', 'light'] : [])]];
   const tint = look() === '1988' ? [] : ['-look', look()];
-  return [['uglorentz', ...bodies, ...shape, state.name], ...tinted, ['ugrainbow', ...tint, ...output]];
+  return [['uglorentz', ...bodies, ...shape, ...pieces, state.name], ...tinted, ['ugrainbow', ...tint, ...output]];
 }
 
 /** The name of the picture: that of the subject with another ending, and never its own. */

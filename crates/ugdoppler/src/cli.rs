@@ -77,7 +77,8 @@ pub struct Args {
     /// Give faces with textures their mean colour
     ///
     /// Without it, the colours of a scene with textures are shifted by the renderer, with a ray for
-    /// each sample. Pictures in vectors, -og, -cb and mesh files need colours at vertices.
+    /// each sample. Pictures in vectors, -og, -cb and mesh files need colours at vertices, and faces
+    /// that uglorentz has cut (-se 0.1).
     #[arg(long)]
     no_textures: bool,
 

@@ -98,8 +98,13 @@ pub fn apply_with(
     progress: &dyn Progress,
 ) -> Result<(Scene, Vec<Note>), Error> {
     progress.step("colouring", 0);
-    let of_scene = scene.camera().and_then(|camera| camera.eye);
-    ugscene::cut_rounds_at_rest(&mut scene, config.eye.or(of_scene))?;
+    let textures_note = textures_note(&scene, config);
+    let is_deferred = matches!(textures_note, Some(Note::DeferredTextures { .. }));
+    if !is_deferred {
+        ugscene::refuse_whole_faces(&scene)?;
+        let of_scene = scene.camera().and_then(|camera| camera.eye);
+        ugscene::cut_rounds_at_rest(&mut scene, config.eye.or(of_scene))?;
+    }
     scene.infrared = config.shift.infrared();
     uglight::freeze_colors_at_zero(&mut scene);
     // The light of coloured lamps multiplies spectra, which are not in the output.
@@ -125,8 +130,7 @@ pub fn apply_with(
         scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
     let all_move = !config.velocity.is_zero()
         && bodies.all(|body| scene.bodies.stated_velocity(body).is_some());
-    let textures_note = textures_note(&scene, config);
-    let (mut scene, mut notes) = if let Some(Note::DeferredTextures { .. }) = textures_note {
+    let (mut scene, mut notes) = if is_deferred {
         scene.stage.colors =
             ColorStage::Deferred(config.shift.seen_colors(HueScale::Degrees, false));
         (scene, Vec::new())

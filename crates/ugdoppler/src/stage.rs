@@ -19,6 +19,7 @@ pub(crate) fn with_seen_colors(scene: &Scene, config: &Config, eye: DVec3) -> St
             camera_velocity: Velocity::ZERO,
             contraction: true,
             flight_time: true,
+            is_whole: false,
         });
     }
     // Every vertex gets a new colour.

@@ -608,6 +608,7 @@ impl Args {
             // Its numbers are in the commands of the frames, which do not read it.
             context.take_files_read();
         }
+        script.leave_whole();
         Ok(script)
     }
 

@@ -12,7 +12,7 @@ use ugpipe::{CommonArgs, Context, Failure, shell_pipe, shell_word};
 use ugsheet::film::FrameNames;
 use ugskybox::{SceneSky, SkySource};
 
-use crate::options::{Given, PIPE, ParsedCommand, TOOLS, Tool};
+use crate::options::{EXACT_PIPE, Given, PIPE, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
 use crate::program::Program;
 use crate::timeline::{Ease, Quantity, Timeline};
@@ -193,9 +193,33 @@ impl Script {
     pub fn draw_textures(&mut self) {
         /// Options of `ugrainbow` that need colours at vertices.
         const SCANLINE: [&str; 7] = ["cb", "og", "vec", "wf", "sil", "crease", "hl"];
-        let needs_vertices = |Setting { name, .. }: &Setting| SCANLINE.contains(&name.as_str());
-        if self.tools.len() == PIPE.len() && self.options.iter().any(needs_vertices) {
+        /// Options of `ugdoppler` with which it colours vertices.
+        const AT_VERTICES: [&str; 5] = ["no-textures", "gw", "ir", "hd", "li"];
+        let is_given = |names: &[&str]| names.iter().any(|name| self.get(name).is_some());
+        if self.tools.len() != PIPE.len() {
+            return;
+        }
+        let needs_colors = is_given(&SCANLINE);
+        if needs_colors || is_given(&AT_VERTICES) {
+            self.cut("se", uglorentz::DEFAULT_ERROR * 1e3);
+        }
+        if needs_colors {
             self.set("no-textures", Vec::new());
+        }
+    }
+
+    /// Leaves faces whole where a ray is drawn for each sample of them (`-xc`), unless an option
+    /// says how to cut them.
+    pub fn leave_whole(&mut self) {
+        if self.tools.len() == EXACT_PIPE.len() {
+            self.cut("sd", 1.0);
+        }
+    }
+
+    /// Sets an option of subdivision, unless one is given.
+    fn cut(&mut self, name: &str, number: f64) {
+        if ["se", "sc", "sl", "sd"].iter().all(|given| self.get(given).is_none()) {
+            self.set(name, vec![number.to_string()]);
         }
     }
 

@@ -320,9 +320,7 @@ impl Appearance {
     /// `parts`: rows of spectra with their weights.
     pub fn seen_light(&self, parts: impl IntoIterator<Item = (u32, f64)>, stretch: f64) -> DVec3 {
         let Some(spectra) = &self.spectra else { return DVec3::ONE };
-        let ln_doppler = -libm::log(stretch);
-        let parts = parts.into_iter().filter(|&(_, weight)| weight != 0.0);
-        parts.map(|(row, weight)| weight * spectra.light(row, ln_doppler)).sum()
+        spectra.light(parts, -libm::log(stretch))
     }
 }
 
@@ -346,8 +344,7 @@ fn spectral_light(
         }),
     };
     if let (Some(level), []) = (of_daylight, filters) {
-        let ln_doppler = libm::log(doppler);
-        return level * mean(color.rows, |row| spectra.light(row, ln_doppler));
+        return level * spectra.light(color.rows, libm::log(doppler));
     }
     let filter = |filter: &ColorFilter| SpectralFilter {
         color: strongest(spectra, filter.color.rows),

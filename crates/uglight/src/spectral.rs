@@ -151,7 +151,13 @@ impl SpectralColor {
     /// The same, tabulated over D: soon found for many factors.
     #[must_use]
     pub fn tabulated(self, grid: &DopplerGrid) -> Self {
-        Self { spectrum: self.spectrum.tabulated(), table: Some(grid.table()), ..self }
+        Self { table: Some(grid.table()), ..self.with_values() }
+    }
+
+    /// The same with the values of its spectrum at every nanometre.
+    #[must_use]
+    pub(crate) fn with_values(self) -> Self {
+        Self { spectrum: self.spectrum.tabulated(), ..self }
     }
 
     /// False if the colour at rest is another than the one that was written.

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use ugpipe::Progress;
-use ugscene::{CameraOptions, PlacedBodies, Scene};
+use ugscene::{CameraOptions, GeometryStage, PlacedBodies, Projection, Scene, ShownEffects};
 
 use crate::clocks::Clocks;
-use crate::criterion::Bounds;
+use crate::criterion::{Bounds, Criterion};
 use crate::cull::ViewVolume;
 use crate::edge::Tolerance;
 use crate::evenness::Evenness;
@@ -13,8 +13,8 @@ use crate::near_lamps::NearLamps;
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
-    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull,
-    distant_bodies, junctions, measured, remaining_errors, rounds, tables, uniform, viewpoint,
+    Config, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies, junctions,
+    measured, remaining_errors, rounds, tables, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -38,6 +38,9 @@ pub fn apply_with(
     check(config)?;
     measured::refuse_partial(&scene, config)?;
     let (config, carrier) = &measured::in_frame(&mut scene, config)?;
+    let is_for_rays = config.is_for_rays && is_drawn_by_rays(&scene, config);
+    let pieces = if is_for_rays { Pieces::PerEdge(1) } else { config.pieces };
+    let config = &Config { pieces, ..config.clone() };
     let are_rounds_cut = scene.has_rounds_on_world_lines();
     rounds::cut(&mut scene, config)?;
     let n_faces = scene.faces.len();
@@ -59,18 +62,22 @@ pub fn apply_with(
     let depth_factors = distant_bodies::depth_factors(&points, motions);
     let n_culled = cull::cull(&mut scene, &mut points, motions, &view_volume);
 
-    let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
+    let error = viewpoint::error(&scene, config)?;
     let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
     // Measured pictures have no Doppler effect.
     let of_doppler = if config.measured.is_some() { f64::INFINITY } else { config.color_error };
     let tolerance = Tolerance::new(error, of_doppler);
+    let tolerance = match config.pieces {
+        Pieces::UpToPixels(_) => tolerance.with_shortest(viewpoint::pixel(&scene, config)?),
+        _ => tolerance,
+    };
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
     let clocks = Clocks::new(&scene, config.color_error);
     let bounds = Bounds::new(tolerances, (near_lamps, clocks), view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
     let mut n_open_junctions = 0;
     match config.pieces {
-        Pieces::UpTo(_) => mesh.junctions = junctions::find(&scene, &mesh.points, motions),
+        Pieces::UpTo(_) | Pieces::UpToPixels(_) => mesh.junctions = junctions::find(&scene, &mesh.points, motions),
         // Rays (`ugrainbow -xc`) meet the faces at rest.
         Pieces::PerEdge(1) => {}
         Pieces::PerEdge(_) => {
@@ -81,9 +88,14 @@ pub fn apply_with(
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
     let evenness = Evenness::new(is_apart);
+    let is_whole =
+        is_for_rays && Criterion { mesh: &mesh, bounds: &bounds }.has_cuts(&scene, &evenness);
+    if let GeometryStage::AsSeen(seen) = &mut scene.stage.geometry {
+        seen.is_whole = is_whole;
+    }
     let max_pieces = adaptive::max_pieces(n_faces, config.size, motions);
     let outcome = match config.pieces {
-        Pieces::UpTo(_) => {
+        Pieces::UpTo(_) | Pieces::UpToPixels(_) => {
             adaptive::cut(&scene, &evenness, &mut mesh, &bounds, max_pieces, progress)?
         }
         Pieces::PerEdge(n) => uniform::cut(&scene, &evenness, &mut mesh, n)
@@ -140,15 +152,30 @@ pub fn apply_with(
 fn check(config: &Config) -> Result<(), Error> {
     match config.pieces {
         Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => Err(Error::NoBound { error }),
-        Pieces::UpTo(_) if config.color_error.is_nan() || config.color_error <= 0.0 => {
+        Pieces::UpToPixels(pixels) if !(pixels > 0.0 && pixels.is_finite()) => {
+            Err(Error::NoPixelBound { pixels })
+        }
+        Pieces::UpTo(_) | Pieces::UpToPixels(_)
+            if config.color_error.is_nan() || config.color_error <= 0.0 => {
             Err(Error::NoColorBound { error: config.color_error })
         }
-        Pieces::UpTo(_) if config.light_error.is_nan() || config.light_error <= 0.0 => {
+        Pieces::UpTo(_) | Pieces::UpToPixels(_)
+            if config.light_error.is_nan() || config.light_error <= 0.0 => {
             Err(Error::NoLightBound { error: config.light_error })
         }
         Pieces::PerEdge(0) => Err(Error::NoPieces),
         _ => Ok(()),
     }
+}
+
+/// True if renderers draw a scene by a ray for each sample.
+fn is_drawn_by_rays(scene: &Scene, config: &Config) -> bool {
+    let of_scene = scene.camera().and_then(|camera| camera.projection);
+    scene.drawn_texture_name().is_some()
+        && !(config.camera.is_orthographic || of_scene == Some(Projection::Orthographic))
+        && config.geometry == ShownEffects::default()
+        && config.measured.is_none()
+        && !scene.has_changing_surfaces()
 }
 
 fn points(scene: &Scene, placed: &PlacedBodies) -> Vec<Point> {

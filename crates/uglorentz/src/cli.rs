@@ -31,15 +31,17 @@ pub struct Args {
     #[command(flatten)]
     motion: MotionArgs,
 
-    /// Largest error of edges, in milliradians seen from the eye [default: 0.1]
+    /// Largest error of edges, in milliradians seen from the eye, or in pixels (.15px) [default: 0.1]
     ///
-    /// Edges are subdivided until they deviate by at most ERR. Subdivision stops at 4000000 pieces
+    /// Edges are subdivided until they deviate by at most ERR. Pixels are those of -sz and the view:
+    /// small pictures have fewer pieces, and edges shorter than a pixel are not cut. Subdivision stops at 4000000 pieces
     /// (1000000 beyond the faces, if a body accelerates or turns),
     /// or after 32 halvings of an edge, with a warning that states the remaining errors. -vb always
-    /// states them, and the vertices where they occur.
+    /// states them, and the vertices where they occur. Faces of a scene with textures stay whole,
+    /// since a ray is drawn for each sample of them, unless ERR in milliradians, -sc or -sl is given.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
-          allow_hyphen_values = true, value_parser = finite)]
-    error: Option<f64>,
+          allow_hyphen_values = true, value_parser = error_bound)]
+    error: Option<Pieces>,
 
     /// Subdivide also until the interpolated Doppler factor deviates by at most PERCENT, or off
     /// [default: 0.15]
@@ -101,9 +103,9 @@ pub struct Args {
     #[command(flatten)]
     camera: CameraArgs,
 
-    /// Size of the picture in pixels, of which the aspect ratio is used
+    /// Size of the picture in pixels, of which mostly the aspect ratio is used
     ///
-    /// For -cull, and for the camera of a scene without one. Lengths have 300 pixels to the inch here;
+    /// For -se in pixels, -cull, and for the camera of a scene without one. Lengths have 300 pixels to the inch here;
     /// -vec rounds them to points, so its aspect ratio may differ by half a point on a side.
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
           default_values = ["1024", "768"], value_parser = Side::parse,
@@ -217,7 +219,7 @@ impl Args {
     pub fn config(&self) -> Result<Config, Failure> {
         let pieces = match (self.equal, self.error) {
             (Some(n), _) => Pieces::PerEdge(n),
-            (None, Some(milliradians)) => Pieces::UpTo(milliradians * 1e-3),
+            (None, Some(pieces)) => pieces,
             (None, None) => Pieces::UpTo(DEFAULT_ERROR),
         };
         let camera = CameraOptions { is_ahead: self.motion.is_ahead(), ..self.camera.options() };
@@ -235,6 +237,7 @@ impl Args {
             pieces,
             color_error: self.color_error.unwrap_or(DEFAULT_COLOR_ERROR),
             light_error: self.light_error.unwrap_or(f64::INFINITY),
+            is_for_rays: self.equal.is_none() && !self.has_bound() && self.attributes.is_none(),
             measure: self.common.vb,
             smooth: self.smooth,
             repeat: self.repeat.repeats(),
@@ -242,6 +245,17 @@ impl Args {
             zero: None,
             measured: self.measured.clone(),
         })
+    }
+}
+
+impl Args {
+    /// True if faces are to be cut whatever draws them: a bound in pixels says only how.
+    fn has_bound(&self) -> bool {
+        match self.error {
+            Some(Pieces::UpToPixels(_)) => false,
+            Some(_) => true,
+            None => self.color_error.is_some() || self.light_error.is_some(),
+        }
     }
 }
 
@@ -262,6 +276,14 @@ fn table(path: &Path) -> Result<Table, Failure> {
             "-at writes a table: the name of its file must end with .csv, .ply or .vtp".to_string(),
         )
     })
+}
+
+/// The bound of `-se`.
+fn error_bound(word: &str) -> Result<Pieces, String> {
+    match word.strip_suffix("px") {
+        Some(pixels) => finite(pixels).map(Pieces::UpToPixels),
+        None => finite(word).map(|milliradians| Pieces::UpTo(milliradians * 1e-3)),
+    }
 }
 
 /// A fraction, from a percentage.

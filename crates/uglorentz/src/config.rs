@@ -28,8 +28,8 @@ pub struct Config {
     /// Other properties of the camera to write into the scene (`-vc`, `-ud`, `-va`, `-og`). Its eye
     /// is ignored, see [`Config::eye`].
     pub camera: CameraOptions,
-    /// Pixels of the picture across and down, of which only the aspect ratio matters: for `cull`,
-    /// and for the camera of a scene without one (`-sz`).
+    /// Pixels of the picture across and down: for [`Pieces::UpToPixels`]; otherwise only the aspect
+    /// ratio matters, for `cull`, and for the camera of a scene without one (`-sz`).
     pub size: [u32; 2],
     /// Remove faces that are outside the view of the picture (`-cull`).
     pub cull: bool,
@@ -43,11 +43,16 @@ pub struct Config {
     /// How edges are subdivided (`-se`, `-sd`).
     pub pieces: Pieces,
     /// Bound of the relative error of the Doppler factor, and of its inverse, interpolated linearly
-    /// along an edge; infinite for none (`-sc`). Used with [`Pieces::UpTo`].
+    /// along an edge; infinite for none (`-sc`). Not used with [`Pieces::PerEdge`].
     pub color_error: f64,
     /// Bound of the relative error of the light of near lamps, interpolated linearly along an edge;
-    /// infinite, the default, for none (`-sl`). Used with [`Pieces::UpTo`].
+    /// infinite, the default, for none (`-sl`). Not used with [`Pieces::PerEdge`].
     pub light_error: f64,
+    /// Leave the faces of a scene with textures or emitted light whole: renderers draw it by a ray
+    /// for each sample, which is as exact without subdivision. Its stage says so, and programs that
+    /// need colours or positions at vertices refuse it. No effect with a single effect of motion,
+    /// orthographic projection, or colours that change with time.
+    pub is_for_rays: bool,
     /// Measure the remaining errors, for [`crate::Report::remaining_errors`] (`-vb`).
     pub measure: bool,
     /// Give vertices without a normal the mean normal of their faces (`-sm`).
@@ -92,6 +97,7 @@ impl Default for Config {
             pieces: Pieces::UpTo(DEFAULT_ERROR),
             color_error: DEFAULT_COLOR_ERROR,
             light_error: f64::INFINITY,
+            is_for_rays: true,
             measure: false,
             smooth: false,
             repeat: false,
@@ -126,6 +132,9 @@ impl Config {
 pub enum Pieces {
     /// Until the error of the picture is at most this angle at the eye, radians.
     UpTo(f64),
+    /// Until the error of the picture is at most this many pixels of [`Config::size`] in the middle
+    /// of the view. Edges that are shorter than a pixel are not cut.
+    UpToPixels(f64),
     /// Into this many equal pieces each, 1 or more.
     PerEdge(u32),
 }

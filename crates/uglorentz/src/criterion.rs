@@ -163,6 +163,12 @@ impl Criterion<'_, '_> {
         scene.faces.par_iter().enumerate().filter_map(cut).collect()
     }
 
+    /// Is there a face or wire with edges that bend?
+    pub(crate) fn has_cuts(&self, scene: &Scene, evenness: &Evenness) -> bool {
+        scene.faces.par_iter().any(|face| self.first_cut(scene, face, evenness).is_some())
+            || !self.bent_wires(scene).is_empty()
+    }
+
     /// `None` if the face can stay as it is.
     fn first_cut(&self, scene: &Scene, face: &Face, evenness: &Evenness) -> Option<Cut> {
         let corners = scene.face_corners(face);

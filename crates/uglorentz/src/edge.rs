@@ -51,6 +51,9 @@ pub(crate) struct Tolerance {
     pub safe: f64,
     /// Bound of rule 3; infinite for none.
     pub color: f64,
+    /// Edges whose length is below this part of the distance of their nearer end are straight
+    /// enough.
+    shortest: f64,
 }
 
 impl Tolerance {
@@ -65,7 +68,19 @@ impl Tolerance {
             offset,
             safe,
             color: color * color::EDGE_SHARE,
+            shortest: 0.0,
         }
+    }
+
+    /// Edges shorter than this angle at the eye, radians, are not cut.
+    pub(crate) fn with_shortest(self, shortest: f64) -> Tolerance {
+        Tolerance { shortest, ..self }
+    }
+
+    /// Are these two points, as seen, too close to each other to be told apart?
+    fn is_short(&self, a: &Point, b: &Point) -> bool {
+        let most = self.shortest * a.seen_distance.min(b.seen_distance);
+        (b.seen - a.seen).length_squared() < most * most
     }
 
     /// The bounds for bodies on world lines.
@@ -82,7 +97,7 @@ impl Tolerance {
 
 /// Is the error of an edge above the bound? Its ends must always be given in the same order.
 pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> bool {
-    if motion.is_at_rest() {
+    if motion.is_at_rest() || tolerance.is_short(a, b) {
         return false;
     }
     if motion.world_line().is_some() {

@@ -21,6 +21,12 @@ pub enum Error {
     /// The view of the camera is invalid.
     #[error(transparent)]
     Camera(CameraError),
+    /// The bound of [`crate::Pieces::UpToPixels`] is not above 0, or not finite.
+    #[error("the error bound is {pixels} pixels")]
+    NoPixelBound {
+        /// The bound given, pixels.
+        pixels: f64,
+    },
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
     #[error("the error bound is {} milliradians", error * 1e3)]
     NoBound {

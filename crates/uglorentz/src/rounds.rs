@@ -2,33 +2,33 @@
 
 use glam::DVec3;
 use ugscene::{
-    CameraOptions, Face, PlacedBodies, RelativeMotion, RoundShape, Scene, cut_rounds, seen_sagitta,
+    COARSEST_SAGITTA, CameraOptions, Face, PlacedBodies, RelativeMotion, RoundShape, Scene,
+    cut_rounds, seen_sagitta, seen_sagitta_on_world_line,
 };
 
-use crate::{Config, DEFAULT_ERROR, Error, Pieces};
+use crate::{Config, Error, Pieces, viewpoint};
 
 /// Cuts round faces so that no polygon is seen farther from the surface than the bound on errors of
-/// shape; those of bodies on world lines to a fixed part of their radius. Without subdivision only
-/// the latter are cut, since rays meet the others as they are.
+/// shape; those of bodies on world lines not finer than a fixed part of their radius. Without
+/// subdivision only the latter are cut, since rays meet the others as they are.
 pub(crate) fn cut(scene: &mut Scene, config: &Config) -> Result<(), Error> {
-    if config.pieces == Pieces::PerEdge(1) {
-        return Ok(ugscene::cut_rounds_on_world_lines(scene)?);
-    }
-    if !scene.has_rounds() {
+    let is_whole = config.pieces == Pieces::PerEdge(1);
+    if !(if is_whole { scene.has_rounds_on_world_lines() } else { scene.has_rounds() }) {
         return Ok(());
     }
-    let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
     let mut trial = scene.clone();
     let placed =
         PlacedBodies::move_to_camera_frame(&mut trial, &config.motion(), &camera, config.size)?;
     let rest = placed.rest_positions(&trial);
+    let error = viewpoint::error(&trial, config)?;
     let sagitta = |row: usize, _: &Face, _: &RoundShape| {
         let face = &trial.faces[row];
         let round = trial.round_shape(face, |vertex| rest[vertex.index()])?;
         let motion = &placed.motions[face.body.index()];
         Some(match motion.world_line() {
-            Some(_) => ugscene::FINE_SAGITTA,
+            Some(_) => seen_sagitta_on_world_line(&round, motion, error, COARSEST_SAGITTA),
+            None if is_whole => return None,
             None => {
                 seen_sagitta(&round, DVec3::ZERO, error * least_doppler(&round, motion).min(1.0))
             }

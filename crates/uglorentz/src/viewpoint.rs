@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use ugscene::{CameraOptions, Scene, View};
 
-use crate::Error;
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::{Config, DEFAULT_ERROR, Error, Pieces};
 
 /// The view of the scene's camera, for a picture of `size` pixels.
 pub(crate) fn view(scene: &Scene, options: &CameraOptions, size: [u32; 2]) -> Result<View, Error> {
@@ -13,6 +13,27 @@ pub(crate) fn view(scene: &Scene, options: &CameraOptions, size: [u32; 2]) -> Re
     }
     // The eye has been written into the camera.
     View::new(scene, &CameraOptions { eye: None, ..options.clone() }, size).map_err(Error::Camera)
+}
+
+/// The bound on errors of shape, radians. `scene`: placed, with its eye in the camera.
+pub(crate) fn error(scene: &Scene, config: &Config) -> Result<f64, Error> {
+    match config.pieces {
+        Pieces::UpTo(error) => Ok(error),
+        Pieces::UpToPixels(pixels) => Ok(pixels * pixel(scene, config)?),
+        Pieces::PerEdge(_) => Ok(DEFAULT_ERROR),
+    }
+}
+
+/// The angle of a pixel in the middle of the picture, radians; about that of the default picture in
+/// a parallel projection, which has none.
+pub(crate) fn pixel(scene: &Scene, config: &Config) -> Result<f64, Error> {
+    /// With 0.14 of it the bound is the default.
+    const DEFAULT_PIXEL: f64 = DEFAULT_ERROR / 0.14;
+    let options = CameraOptions { eye: None, ..config.camera.clone() };
+    let view = View::new(scene, &options, config.size).map_err(Error::Camera)?;
+    let [_, across, down] = view.rays();
+    let side = across.length().min(down.length());
+    Ok(if view.is_perspective && side > 0.0 { side } else { DEFAULT_PIXEL })
 }
 
 /// The direction to a vertex at the eye, and so its Doppler factor, is undefined.

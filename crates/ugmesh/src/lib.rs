@@ -185,6 +185,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     let Loaded { mut scene, warnings, mut notes, diagnostics } = load(config, format, input)?;
     if config.target != Target::Ug {
         ugscene::refuse_deferred_colors(&scene)?;
+        ugscene::refuse_whole_faces(&scene)?;
     }
     // Meshes show no times.
     uglight::freeze_colors_at_zero(&mut scene);

@@ -121,9 +121,18 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
         camera_velocity: Velocity::ZERO,
         contraction: true,
         flight_time: true,
+        is_whole: false,
     };
-    const OPTIONS: [&str; 7] =
-        ["eye", "time", "camera-velocity", "no-contraction", "no-flight-time", COLORS, MIXTURES];
+    const OPTIONS: [&str; 8] = [
+        "eye",
+        "time",
+        "camera-velocity",
+        "no-contraction",
+        "no-flight-time",
+        "whole",
+        COLORS,
+        MIXTURES,
+    ];
     while let Some(word) = words.next_of_part()? {
         match word.as_str() {
             "eye" => eye = Some(words.point()?),
@@ -131,6 +140,7 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
             "camera-velocity" => seen.camera_velocity = words.velocity(word)?,
             "no-contraction" => seen.contraction = false,
             "no-flight-time" => seen.flight_time = false,
+            "whole" => seen.is_whole = true,
             _ => return Err(unknown(word, &OPTIONS)),
         }
     }
@@ -340,6 +350,7 @@ pub(crate) fn write(stage: &Stage, out: &mut RowWriter<'_>) {
         }
         add(!seen.contraction, "no-contraction", &[]);
         add(!seen.flight_time, "no-flight-time", &[]);
+        add(seen.is_whole, "whole", &[]);
     }
     if let ColorStage::AsSeen(seen) | ColorStage::Deferred(seen) = &stage.colors {
         let is_deferred = stage.deferred_colors().is_some();

@@ -32,14 +32,7 @@ pub fn cut_on_world_lines(scene: &mut Scene, config: &Config) -> Result<(), Erro
         let motion = &placed.motions[face.body.index()];
         motion.world_line()?;
         let round = trial.round_shape(face, |vertex| rest[vertex.index()])?;
-        let [low, high] = round.bounds();
-        let around = 0.5 * (high - low).length();
-        let distance = match motion.light(low.midpoint(high)) {
-            // Eq. (P11): an angle at the eye is length over distance at emission.
-            Ok((seen, _)) => (seen.length() - around).max(0.0),
-            Err(_) => 0.0,
-        };
-        Some((SAGITTA * pixel * distance / round.stretch()).clamp(ugscene::FINE_SAGITTA, 1.0))
+        Some(ugscene::seen_sagitta_on_world_line(&round, motion, SAGITTA * pixel, 1.0))
     };
     Ok(ugscene::cut_rounds(scene, sagitta)?)
 }

@@ -35,8 +35,11 @@ pub const SEEN_COLORS: &str = "start again from the scene before ugdoppler; \
      the order is uglorentz, ugdoppler, ugrainbow, each once; ugphoton and ugfilm do the work of all three";
 
 /// Textures are to be shifted by rays that the picture or file excludes.
-pub const DEFERRED_COLORS: &str = "give ugdoppler --no-textures for their mean colours; \
+pub const DEFERRED_COLORS: &str = "give uglorentz -se 0.1, and ugdoppler --no-textures for their mean colours; \
      rays exclude -cb, -og, -vec, lines without faces and mesh files";
+
+/// Faces were left whole for rays, which the picture, colours at vertices or a file exclude.
+pub const WHOLE_FACES: &str = "give uglorentz -se 0.1, which cuts them";
 
 /// Bodies move whose positions are still at rest.
 pub const GEOMETRY_AT_REST: &str =

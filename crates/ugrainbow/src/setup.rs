@@ -46,6 +46,7 @@ impl<'a> Setup<'a> {
             ugscene::require_seen_geometry(scene)?;
         } else {
             ugscene::refuse_deferred_colors(scene)?;
+            ugscene::refuse_whole_faces(scene)?;
         }
         let mut scene = drawable(scene);
         config.cut_rounds(&mut scene)?;

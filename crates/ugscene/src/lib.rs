@@ -72,12 +72,12 @@ pub use note::{Note, may_miss_motion};
 pub use observe::*;
 pub use requirements::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in,
-    refuse_deferred_colors, require_colors_at_rest, require_eye, require_geometry_at_rest,
-    require_seen_geometry, write_display_as_hues,
+    refuse_deferred_colors, refuse_whole_faces, require_colors_at_rest, require_eye,
+    require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
 pub use rounds::{
-    FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest, cut_rounds_on_world_lines,
-    seen_sagitta,
+    COARSEST_SAGITTA, FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest,
+    cut_rounds_on_world_lines, seen_sagitta, seen_sagitta_on_world_line,
 };
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};

@@ -17,6 +17,8 @@ pub enum StageError {
     ColorsAsSeen,
     /// Colours as seen are required, and the renderer is to shift those of textures.
     ColorsDeferred,
+    /// Faces with an outline as seen are required, but they are whole, for rays.
+    WholeFaces,
     /// Positions as seen are required, but bodies move and have their rest shapes.
     GeometryAtRest,
     /// Wavelengths are required, but colours as seen are hues.
@@ -36,6 +38,9 @@ messages! { StageError {
     Self::ColorsAsSeen => "colours in this scene are as seen already";
     Self::ColorsDeferred =>
         "textures in this scene are shifted where they are drawn, by a ray for each sample";
+    Self::WholeFaces =>
+        "faces in this scene are not cut where they are seen as curved: it has textures or emitted light, \
+         drawn by a ray for each sample";
     Self::GeometryAtRest => "bodies in this scene move, and their positions are not as seen yet";
     Self::NotWavelengths => "colours in this scene are as seen, and are not written as wavelengths";
     Self::OtherEye { made_for, asked } =>
@@ -80,6 +85,15 @@ pub fn require_colors_at_rest(scene: &Scene) -> Result<(), StageError> {
 /// [`StageError::ColorsDeferred`].
 pub fn refuse_deferred_colors(scene: &Scene) -> Result<(), StageError> {
     scene.stage.deferred_colors().map_or(Ok(()), |_| Err(StageError::ColorsDeferred))
+}
+
+/// Refuses faces that are seen as curved and were left whole for rays.
+///
+/// # Errors
+/// [`StageError::WholeFaces`].
+pub fn refuse_whole_faces(scene: &Scene) -> Result<(), StageError> {
+    let is_whole = scene.stage.seen_geometry().is_some_and(|seen| seen.is_whole);
+    if is_whole { Err(StageError::WholeFaces) } else { Ok(()) }
 }
 
 /// Refuses moving bodies with rest shapes.

@@ -18,8 +18,12 @@ const DEFAULT_SAGITTA: f64 = 1e-3;
 /// The angle of it at the eye, if one is known: 0.1 milliradians, in radians.
 const DEFAULT_ERROR: f64 = 1e-4;
 
-/// The same where pictures need it to be invisible, but cannot be drawn with the exact shape.
+/// The sagitta, relative to the radius, where pictures need it to be invisible, but cannot be drawn
+/// with the exact shape.
 pub const FINE_SAGITTA: f64 = 2.5e-4;
+
+/// The greatest sagitta, relative to the radius: coarser shapes would be shaded unevenly.
+pub const COARSEST_SAGITTA: f64 = 1e-2;
 
 /// Round faces may become so many polygons in all. If they would be more, all are coarser.
 const MOST_POLYGONS: usize = 1_000_000;
@@ -103,8 +107,6 @@ pub fn cut_rounds(
 /// The sagitta of a shape at rest, relative to its radius, that is seen from `eye` within the angle
 /// `error`, radians; at most a hundredth.
 pub fn seen_sagitta(round: &RoundShape, eye: DVec3, error: f64) -> f64 {
-    /// Coarser shapes would be shaded unevenly.
-    const COARSEST: f64 = 1e-2;
     let [low, high] = round.bounds();
     let radius = round.stretch();
     let beside_box = ugphysics::length(eye.clamp(low, high) - eye);
@@ -112,7 +114,26 @@ pub fn seen_sagitta(round: &RoundShape, eye: DVec3, error: f64) -> f64 {
         FaceShape::Sphere => (ugphysics::length(eye - round.origin) - radius).abs().max(beside_box),
         _ => beside_box,
     };
-    (error * (distance / radius)).min(COARSEST)
+    (error * (distance / radius)).min(COARSEST_SAGITTA)
+}
+
+/// The sagitta of a shape on a world line, relative to its radius, that is seen within the angle
+/// `error`, radians; at least [`FINE_SAGITTA`], and less than `most`. `round`: at rest, relative to
+/// the eye.
+pub fn seen_sagitta_on_world_line(
+    round: &RoundShape,
+    motion: &RelativeMotion,
+    error: f64,
+    most: f64,
+) -> f64 {
+    let [low, high] = round.bounds();
+    let around = 0.5 * (high - low).length();
+    let distance = match motion.light(low.midpoint(high)) {
+        // Eq. (P11): an angle at the eye is length over distance at emission.
+        Ok((seen, _)) => (seen.length() - around).max(0.0),
+        Err(_) => 0.0,
+    };
+    (error * distance / round.stretch()).clamp(FINE_SAGITTA, most)
 }
 
 /// Cuts all round faces of a scene: within 0.1 milliradians at the eye, or if that is not

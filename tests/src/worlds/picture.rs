@@ -195,6 +195,7 @@ impl Picture {
             size,
             pieces,
             light_error,
+            is_for_rays: false,
             ..uglorentz::Config::default()
         };
         uglorentz::apply(self.scene()?, &config).map(|(scene, _)| scene).map_err(words)

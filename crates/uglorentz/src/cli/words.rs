@@ -24,6 +24,9 @@ impl Words for Error {
             Self::NoBound { error } => {
                 format!("the bound of -se is {} milliradians: give a number above 0", error * 1e3)
             }
+            Self::NoPixelBound { pixels } => {
+                format!("the bound of -se is {pixels} pixels: give a number above 0")
+            }
             Self::NoColorBound { error } => {
                 format!(
                     "the bound of -sc is {} percent: give a number above 0, or off",
@@ -62,6 +65,7 @@ impl Words for Error {
                 Error::Camera(CameraError::NoUp)
                     | Error::NoViewCenter
                     | Error::NoBound { .. }
+                    | Error::NoPixelBound { .. }
                     | Error::NoColorBound { .. }
                     | Error::NoLightBound { .. }
                     | Error::NoPieces
@@ -132,7 +136,8 @@ impl Report {
             )
         });
         let rounds = self.are_rounds_cut.then(|| {
-            "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
+            "round faces of bodies that accelerate or turn are drawn as polygons, within the bound of -se or \
+             1/4000 of their radius"
                 .to_owned()
         });
         let moment = self.momentary_frame.as_ref().map(|(name, time)| {

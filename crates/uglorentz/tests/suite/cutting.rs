@@ -692,3 +692,36 @@ fn texture_coordinates_are_linear_at_rest() {
         }
     }
 }
+
+/// Faces of a scene with textures or emitted light stay whole, as its stage says, unless a bound
+/// is given or rays cannot draw it.
+#[test]
+fn faces_for_rays_stay_whole() {
+    let corners = "v a -9 4 -9; v b 9 4 -9; v c 9 4 9; v d -9 4 9;";
+    let glowing = format!("c k .5; c e 1 60 1; c_emit k e; {corners} f (a b c d) k;");
+    let still = Config { velocity: None, ..Config::default() };
+    let exact = moving(DVec3::X * 0.9);
+    let bound = Config { is_for_rays: false, ..exact.clone() };
+    let geometry = ShownEffects { contraction: false, flight_time: true };
+    let partial = Config { geometry, ..exact.clone() };
+    let mut flat = exact.clone();
+    flat.camera.is_orthographic = true;
+    let small = "c k .5; c e 1 60 1; c_emit k e; v a 0 9 0; v b .001 9 0; v c 0 9 .001; f (a b c) k;";
+    let plain = format!("{corners} f (a b c d);");
+    for (text, config, is_cut, is_whole) in [
+        (&*glowing, &exact, false, true),
+        (&*glowing, &bound, true, false),
+        (&*glowing, &partial, true, false),
+        (&*glowing, &flat, true, false),
+        (&*glowing, &still, false, false),
+        (&*plain, &exact, true, false),
+        // Nothing that would be cut.
+        (small, &exact, false, false),
+    ] {
+        let scene = seen(text, config);
+        assert_eq!(scene.faces.len() > 1, is_cut, "{text} {config:?}");
+        let stage = scene.stage.seen_geometry();
+        assert_eq!(stage.is_some_and(|stage| stage.is_whole), is_whole, "{text} {config:?}");
+        assert_eq!(ugscene::refuse_whole_faces(&scene).is_err(), is_whole);
+    }
+}

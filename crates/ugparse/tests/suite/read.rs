@@ -196,6 +196,7 @@ fn the_output_of_a_pipe_is_known_by_its_history_and_its_stage() {
         camera_velocity: Velocity::ZERO,
         contraction: true,
         flight_time: true,
+        is_whole: false,
     });
     assert!(!is_of_pipe(&scene));
     scene.head.record(Provenance {

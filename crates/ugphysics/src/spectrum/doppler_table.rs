@@ -21,7 +21,7 @@ pub const LN_STEP: f64 = 0.01;
 const MARGIN: i32 = 2;
 
 /// The Doppler factors of tables: e^(0.01 k) over a range with margins, always including D = 1.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DopplerGrid {
     first: i32,
     last: i32,
@@ -69,6 +69,20 @@ impl DopplerGrid {
             Kind::Reflected(surface) => surface.xyz_under(self.light(idx)).map(libm::log),
             _ => spectrum.ln_shifted(self.doppler(idx)),
         }
+    }
+
+    /// X, Y, Z of a spectrum at a point.
+    pub fn xyz_at(&self, spectrum: &Spectrum, idx: usize) -> [f64; 3] {
+        match &spectrum.0 {
+            Kind::Reflected(surface) => surface.xyz_under(self.light(idx)),
+            _ => spectrum.shifted(self.doppler(idx)),
+        }
+    }
+
+    /// Where a ln D is between the points, for [`DopplerTable::mean`].
+    pub fn place(&self, ln_doppler: f64) -> GridPlace {
+        let Cell { idx, fraction } = Cell::new(self.first, self.n_points(), ln_doppler);
+        GridPlace { idx, fraction, weights: weights(fraction) }
     }
 
     /// A table whose points are computed when they are first read.
@@ -160,12 +174,45 @@ impl DopplerTable {
         cell.interpolate(std::array::from_fn(|i| self.point(cell.idx + i - 1, &ln_xyz)))
     }
 
-    /// The logarithms at a point of the grid.
+    /// X, Y, Z at a place, of a table that has X, Y and Z themselves: those of surfaces in daylight
+    /// fall so slowly that a cubic through them is as near as through their logarithms, and takes
+    /// no exponential functions. Where a point has no light they are interpolated linearly.
+    ///
+    /// `xyz`: returns them at a point of the grid, always by the same function.
+    #[inline]
+    pub fn mean(&self, place: &GridPlace, xyz: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+        if place.fraction == 0.0 {
+            return self.point(place.idx, xyz);
+        }
+        let points: [_; 4] = std::array::from_fn(|i| self.point(place.idx + i - 1, &xyz));
+        let [before, from, to, behind] = points;
+        std::array::from_fn(|i| {
+            if before[i] > 0.0 && from[i] > 0.0 && to[i] > 0.0 && behind[i] > 0.0 {
+                let [a, b, c, d] = place.weights;
+                // Between points of very different light a cubic may fall below 0.
+                (b * from[i] + c * to[i] + a * before[i] + d * behind[i]).max(0.0)
+            } else {
+                from[i] + place.fraction * (to[i] - from[i])
+            }
+        })
+    }
+
+    /// The numbers at a point of the grid.
+    #[inline]
     pub fn point(&self, idx: usize, ln_xyz: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
         let chunk =
             self.chunks[idx / CHUNK].get_or_init(|| Box::new([const { OnceLock::new() }; CHUNK]));
         *chunk[idx % CHUNK].get_or_init(|| ln_xyz(idx))
     }
+}
+
+/// A place between the points of a grid.
+#[derive(Clone, Copy, Debug)]
+pub struct GridPlace {
+    idx: usize,
+    fraction: f64,
+    /// Of the point before the cell, its two ends, and the point after it.
+    weights: [f64; 4],
 }
 
 /// The cell of a table in which a ln D lies.
@@ -204,8 +251,17 @@ impl Cell {
 
 /// The cubic through values at −1, 0, 1, 2, evaluated at `s` in 0…1.
 fn cubic([before, from, to, behind]: [f64; 4], s: f64) -> f64 {
+    let [a, b, c, d] = weights(s);
+    from * b + to * c + before * a + behind * d
+}
+
+/// The weights of values at −1, 0, 1, 2 in the cubic through them, at `s` in 0…1.
+fn weights(s: f64) -> [f64; 4] {
     let (ahead, back, far) = (s + 1.0, 1.0 - s, 2.0 - s);
-    from * (ahead * back * far / 2.0) + to * (ahead * s * far / 2.0)
-        - before * (s * back * far / 6.0)
-        - behind * (ahead * s * back / 6.0)
+    [
+        -(s * back * far / 6.0),
+        ahead * back * far / 2.0,
+        ahead * s * far / 2.0,
+        -(ahead * s * back / 6.0),
+    ]
 }

@@ -50,7 +50,7 @@ mod weighted_daylight;
 
 pub use blackbody::planck;
 pub use daylight::{DAYLIGHT_KELVIN, daylight};
-pub use doppler_table::{DopplerGrid, DopplerTable, LN_STEP};
+pub use doppler_table::{DopplerGrid, DopplerTable, GridPlace, LN_STEP};
 pub use infrared::InfraredRule;
 pub use light_spectrum::LightSpectrum;
 pub use observer::{integrate, observer};

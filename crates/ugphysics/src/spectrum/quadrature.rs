@@ -85,13 +85,16 @@ fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
     (row, std::array::from_fn(weight))
 }
 
+/// Products that [`dot`] adds up together.
+pub(crate) const DOT_GROUP: usize = 4;
+
 /// Σ a b, in four partial sums (for SIMD), in the same order on every machine.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a_chunks, a_rest) = a.as_chunks::<4>();
-    let (b_chunks, b_rest) = b.as_chunks::<4>();
-    let mut sums = [0.0; 4];
+    let (a_chunks, a_rest) = a.as_chunks::<DOT_GROUP>();
+    let (b_chunks, b_rest) = b.as_chunks::<DOT_GROUP>();
+    let mut sums = [0.0; DOT_GROUP];
     for (a, b) in a_chunks.iter().zip(b_chunks) {
-        for i in 0..4 {
+        for i in 0..DOT_GROUP {
             sums[i] += a[i] * b[i];
         }
     }

@@ -119,8 +119,10 @@ impl Reflectance {
     /// X, Y, Z of L(λ) = L'(λD) under daylight, which is computed beforehand: (P12) without D⁵.
     pub(crate) fn xyz_under(&self, light: &WeightedDaylight) -> [f64; 3] {
         let values = self.values();
+        let used = || light.used.clone();
         std::array::from_fn(|i| {
-            let visible = values[0] * light.ultraviolet[i] + dot(&values[..], &light.inside[i]);
+            let inside = dot(&values[used()], &light.inside[i][used()]);
+            let visible = values[0] * light.ultraviolet[i] + inside;
             self.factor * visible + dot(&self.levels, &light.infrared[i])
         })
     }

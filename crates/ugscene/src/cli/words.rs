@@ -27,6 +27,7 @@ impl Words for StageError {
             Self::GeometryAsSeen => format!("{self}: {}", remedies::SEEN_GEOMETRY),
             Self::ColorsAsSeen => format!("{self}: {}", remedies::SEEN_COLORS),
             Self::ColorsDeferred => format!("{self}: {}", remedies::DEFERRED_COLORS),
+            Self::WholeFaces => format!("{self}: {}", remedies::WHOLE_FACES),
             Self::GeometryAtRest => format!("{self}: {}", remedies::GEOMETRY_AT_REST),
             Self::NotWavelengths => {
                 format!("{self}: leave out -wi, or {}", remedies::WRITE_WAVELENGTHS)

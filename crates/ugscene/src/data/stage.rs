@@ -86,6 +86,9 @@ pub struct SeenGeometry {
     pub contraction: bool,
     /// Positions include the light travel time.  Eq. (P2)
     pub flight_time: bool,
+    /// Faces that are seen as curved have the corners at rest alone, for renderers that follow
+    /// rays.
+    pub is_whole: bool,
 }
 
 /// The stage of the colours in a scene.

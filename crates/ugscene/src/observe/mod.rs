@@ -237,8 +237,10 @@ impl PlacedBodies {
         let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } =
             *options;
         if has_motion || options.geometry != ShownEffects::default() {
+            let camera_velocity = of_camera;
+            let is_whole = false;
             let seen =
-                SeenGeometry { eye, time, camera_velocity: of_camera, contraction, flight_time };
+                SeenGeometry { eye, time, camera_velocity, contraction, flight_time, is_whole };
             scene.stage.geometry = GeometryStage::AsSeen(seen);
         }
         Ok(Self { eye, default_camera, motions, bodies, shifts })

@@ -82,6 +82,7 @@ fn rest_positions_are_in_the_axes_of_the_scene() {
         camera_velocity: camera,
         contraction: true,
         flight_time: true,
+        is_whole: false,
     });
     let frames = RestFrames::new(&scene);
     for (found, rest) in rest_positions(&scene, DVec3::ZERO, &frames).into_iter().zip(rest) {

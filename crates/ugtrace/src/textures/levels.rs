@@ -105,7 +105,9 @@ impl Levels {
         } else {
             // Two show where within the footprint an edge between texels is.
             let fewest = if width <= 1.0 { 2.0 } else { 1.0 };
-            let n_probes = (length / width.max(1.0)).round().clamp(fewest, MOST_PROBES);
+            // Rounded by the cast.
+            let n_probes = (length / width.max(1.0)).clamp(fewest, MOST_PROBES);
+            let n_probes = f64::from((n_probes + 0.5) as u32);
             let level = libm::log2((length / n_probes).max(width).max(1.0));
             let along = long / sides;
             let mut sum = [0.0; 4];
@@ -125,7 +127,9 @@ impl Levels {
 
     fn trilinear(&self, uv: DVec2, level: f64, filter: Filter) -> [f32; 4] {
         let level = level.min(self.others.len() as f64);
-        let (whole, part) = (level.floor() as usize, level.fract() as f32);
+        // Levels are not below 0.
+        let whole = level as usize;
+        let part = (level - whole as f64) as f32;
         let near = self.texel(whole, uv, filter);
         if part == 0.0 {
             return near;
@@ -172,19 +176,36 @@ fn axes([a, b]: [DVec2; 2]) -> (DVec2, f64) {
     (length * direction, width)
 }
 
+/// The largest integer that is not greater. `f64::floor` is a call on processors for which
+/// programs are compiled by default.
+#[inline]
+fn floor(number: f64) -> f64 {
+    /// Larger numbers of type f64 are integers.
+    const INTEGERS: f64 = (1_u64 << 52) as f64;
+    if number.abs() < INTEGERS {
+        let toward_zero = number as i64 as f64;
+        toward_zero - f64::from(u8::from(toward_zero > number))
+    } else {
+        number.floor()
+    }
+}
+
 /// The two texels beside a coordinate along one axis, and the share of the second.
 #[inline]
 fn neighbours((place, side, wrap): (f64, usize, Wrap)) -> (usize, usize, f32) {
     let place = match wrap {
-        Wrap::Repeat => place - place.floor(),
-        Wrap::Mirror => place - 2.0 * (0.5 * place).floor(),
+        Wrap::Repeat => place - floor(place),
+        Wrap::Mirror => place - 2.0 * floor(0.5 * place),
         Wrap::Clamp => place.clamp(0.0, 1.0),
     };
     // From -1/2 to side - 1/2, or to twice that; NaN becomes the first texel.
     let at = place * side as f64 - 0.5;
-    let first = at.floor();
+    let first = floor(at);
     let part = if at.is_finite() { (at - first) as f32 } else { 0.0 };
     let (first, side) = (first as i64, side as i64);
+    if 0 <= first && first + 1 < side {
+        return (first as usize, first as usize + 1, part);
+    }
     let inside = |at: i64| match wrap {
         Wrap::Repeat if at < 0 => side - 1,
         Wrap::Repeat if at >= side => 0,

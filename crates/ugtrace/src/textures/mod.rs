@@ -5,7 +5,7 @@ mod footprint;
 mod levels;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -95,9 +95,10 @@ impl Textures {
             });
         }
         check_memory(scene, &pictures, memory)?;
+        kept().retain(|kept| kept.bytes.strong_count() > 0);
         let levels: Vec<Arc<Levels>> = pictures
             .par_iter()
-            .map(|texture| decoded(scene, texture, memory))
+            .map(|texture| levels(scene, texture, memory))
             .collect::<Result<_, _>>()?;
         let mut of_color = vec![None; scene.colors.len()];
         let mut maps = Vec::new();
@@ -240,6 +241,33 @@ fn check_memory(scene: &Scene, pictures: &[&Texture], most: u64) -> Result<(), T
         }
     }
     Ok(())
+}
+
+/// A decoded picture, kept for the next frame of a film while the bytes of its file are in use.
+struct Kept {
+    bytes: Weak<[u8]>,
+    is_opaque: bool,
+    levels: Arc<Levels>,
+}
+
+fn kept() -> MutexGuard<'static, Vec<Kept>> {
+    static KEPT: Mutex<Vec<Kept>> = Mutex::new(Vec::new());
+    KEPT.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The texels of a picture, decoded unless they are kept.
+fn levels(scene: &Scene, texture: &Texture, memory: u64) -> Result<Arc<Levels>, TextureError> {
+    let (bytes, is_opaque) = (&texture.image.bytes, texture.alpha == AlphaMode::Opaque);
+    // A weak reference keeps the address, so no other picture has it.
+    let is_same = |kept: &&Kept| {
+        std::ptr::addr_eq(kept.bytes.as_ptr(), Arc::as_ptr(bytes)) && kept.is_opaque == is_opaque
+    };
+    if let Some(found) = kept().iter().find(is_same) {
+        return Ok(Arc::clone(&found.levels));
+    }
+    let levels = decoded(scene, texture, memory)?;
+    kept().push(Kept { bytes: Arc::downgrade(bytes), is_opaque, levels: Arc::clone(&levels) });
+    Ok(levels)
 }
 
 fn decoded(scene: &Scene, texture: &Texture, memory: u64) -> Result<Arc<Levels>, TextureError> {

@@ -16,6 +16,7 @@ const SEEN: SeenGeometry = SeenGeometry {
     camera_velocity: Velocity::ZERO,
     contraction: true,
     flight_time: true,
+    is_whole: false,
 };
 
 fn written(stage: Stage) -> String {
@@ -26,6 +27,7 @@ fn written(stage: Stage) -> String {
 fn every_stage_reads_back() {
     let third = Velocity::from_beta(DVec3::new(1.0 / 3.0, -1e-300, 0.7)).unwrap();
     let mut geometries = vec![GeometryStage::AtRest, GeometryStage::AsSeen(SEEN)];
+    geometries.push(GeometryStage::AsSeen(SeenGeometry { is_whole: true, ..SEEN }));
     for (contraction, flight_time) in [(true, false), (false, true), (false, false)] {
         let seen =
             SeenGeometry { time: -0.1, camera_velocity: third, contraction, flight_time, ..SEEN };
