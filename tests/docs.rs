@@ -227,7 +227,9 @@ fn programs_answer_as_the_pages_say() {
     }
     let programs = programs::folder();
     let folder = Folder::Examples.make(programs);
-    for (page, least) in [("docs/mistakes.md", 10), ("docs/teaching.md", 11), ("docs/concepts.md", 8)] {
+    for (page, least) in
+        [("docs/mistakes.md", 10), ("docs/teaching.md", 11), ("docs/concepts.md", 8)]
+    {
         let transcripts = transcripts(page);
         assert!(transcripts.len() >= least, "{page}: {}", transcripts.len());
         for (command, answer) in transcripts {

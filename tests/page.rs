@@ -1,10 +1,12 @@
 //! The page's programs beside those of a shell.
 
-use serde_json::json;
+use glam::DVec3;
+use serde_json::{Value, json};
+use ugphysics::{Velocity, wigner_rotation};
 use ugtesting::Random;
 use ugtests::hostile::damage;
 use ugtests::shell::Shell;
-use ugweb::Studio;
+use ugweb::{Flight, Studio, qr_code};
 
 /// The words of a shell line without quotes.
 fn commands(line: &str) -> String {
@@ -257,4 +259,183 @@ fn broken_files_are_refused() {
         }
     }
     assert!(n_refused > 20, "{n_refused} files were refused");
+}
+
+/// A camera at rest at `event`, which looks along x.
+fn flight(event: [f64; 4]) -> Flight {
+    let start = json!({"event": event, "velocity": [0, 0, 0], "view": [1, 0, 0], "up": [0, 0, 1]});
+    Flight::new(&start.to_string()).unwrap()
+}
+
+fn pose(flight: &mut Flight, own_time: f64) -> Value {
+    serde_json::from_str(&flight.at(own_time).unwrap()).unwrap()
+}
+
+fn numbers<const N: usize>(pose: &Value, name: &str) -> [f64; N] {
+    std::array::from_fn(|row| pose[name][row].as_f64().unwrap())
+}
+
+#[track_caller]
+fn assert_near<const N: usize>(found: [f64; N], expected: [f64; N], tolerance: f64) {
+    let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= tolerance);
+    assert!(is_near, "{found:?}, not {expected:?}");
+}
+
+/// x = (cosh aτ − 1)/a, t = sinh(aτ)/a, γ = cosh aτ.  Eq. (P32)
+#[test]
+fn constant_thrust_is_hyperbolic_motion() {
+    let a = 0.5_f64;
+    let mut flight = flight([7.0, 1.0, 2.0, 3.0]);
+    for _ in 0..600 {
+        flight.step(0.01, &[a, 0.0, 0.0], &[0.0; 3]);
+    }
+    for own_time in [0.0, 0.37, 3.0, 6.0] {
+        let found = pose(&mut flight, own_time);
+        let [sinh, cosh] = [libm::sinh(a * own_time), libm::cosh(a * own_time)];
+        // Own times have six decimals.
+        let place = [7.0 + sinh / a, 1.0 + (cosh - 1.0) / a, 2.0, 3.0];
+        assert_near(numbers(&found, "event"), place, 1e-9);
+        assert!((found["gamma"].as_f64().unwrap() - cosh).abs() < 1e-9);
+        assert_near(numbers(&found, "course"), [sinh, 0.0, 0.0], 1e-9);
+    }
+    // One piece, however many steps.
+    let text = flight.statements("flight", Some(60.0));
+    let stated = "motion flight -at 1 2 3 -vel 0 0 0\n  -acc 0.5 0 0 0 6\n  -shift 7 0 0 0 ;\n\
+                  cam -ep 1 2 3 -vc 2 2 3 -ud 0 0 1 -va 60 <flight> ;\n";
+    assert_eq!(text, stated);
+}
+
+/// Two boosts and the brake back to rest are a closed loop of velocities: it turns by the Wigner
+/// rotation of the two.  Eq. (P25)
+#[test]
+fn a_closed_loop_of_velocities_turns_the_camera() {
+    let [first, second] = [1.2_f64, 0.9];
+    let mut flight = flight([0.0; 4]);
+    flight.step(1.0, &[first, 0.0, 0.0], &[0.0; 3]);
+    // To the left, which is −right.
+    flight.step(1.0, &[0.0, -second, 0.0], &[0.0; 3]);
+    let fast = pose(&mut flight, 2.0);
+    let course: [f64; 3] = numbers(&fast, "course");
+    let brake = libm::acosh(fast["gamma"].as_f64().unwrap());
+    let length = DVec3::from(course).length();
+    flight.step(1.0, &course.map(|part| -part / length * brake), &[0.0; 3]);
+    let rest = pose(&mut flight, 3.0);
+    // Accelerations have six decimals.
+    assert_near(numbers(&rest, "velocity"), [0.0; 3], 1e-5);
+    let along = |axis: DVec3, rapidity| Velocity::from_rapidity(axis, rapidity).unwrap();
+    let wigner = wigner_rotation(along(DVec3::Y, second), along(DVec3::X, first));
+    let view = DVec3::from(numbers(&rest, "view"));
+    let expected = wigner * DVec3::X;
+    assert!((view - expected).length() < 1e-5, "{view}, not {expected}");
+    assert!(view.y.abs() > 0.3, "{view}");
+}
+
+/// A turn without thrust by its rate; thrust turns with the camera.
+#[test]
+fn turns_are_those_of_the_camera() {
+    let mut flight = flight([0.0; 4]);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    flight.step(1.0, &[0.0; 3], &[0.0, 0.0, quarter]);
+    assert_near(numbers(&pose(&mut flight, 1.0), "view"), [0.0, 1.0, 0.0], 1e-6);
+    flight.step(1.0, &[0.0; 3], &[0.0, quarter, 0.0]);
+    assert_near(numbers(&pose(&mut flight, 2.0), "view"), [0.0, 0.0, 1.0], 1e-6);
+    assert_near(numbers(&pose(&mut flight, 2.0), "up"), [0.0, -1.0, 0.0], 1e-6);
+    flight.step(1.0, &[1.0, 0.0, 0.0], &[0.0; 3]);
+    assert_near(numbers(&pose(&mut flight, 3.0), "velocity"), [0.0, 0.0, libm::tanh(1.0)], 1e-6);
+    // What is no step changes nothing, and no thrust exceeds the limit.
+    for (own_time, thrust) in [(0.0, 1.0), (-1.0, 1.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+        flight.step(own_time, &[thrust, 0.0, 0.0], &[0.0; 3]);
+    }
+    flight.step(1.0, &[1.0], &[0.0; 3]);
+    assert_eq!(flight.end(), 3.0);
+    for _ in 0..100 {
+        flight.step(1.0, &[1.0, 0.0, 0.0], &[0.0; 3]);
+    }
+    assert!(pose(&mut flight, 103.0)["gamma"].as_f64().unwrap() < 4100.0);
+    for start in ["{", "{}", r#"{"event": [0, 0, 0, 0], "velocity": [1, 0, 0]}"#] {
+        assert!(Flight::new(start).is_err(), "{start}");
+    }
+}
+
+/// A recorded flight is drawn by ugfilm with the pixels that the page draws, and pictures in between,
+/// of a camera that passes the same event with the same velocity, are the same but for rounding.
+#[test]
+fn recorded_flights_are_films() {
+    let shell = Shell::new(&["house.ug", "street.ug", "twins.ug", "stars.csv"]);
+    let mut random = Random(11);
+    let mut part = move |most: f64| random.between(-most, most);
+    for row in 0..20 {
+        let scene = ["house.ug", "street.ug", "twins.ug", "stars.csv"][row % 4];
+        let is_sky = scene == "stars.csv";
+        let mut studio = studio(&shell, &[scene]);
+        let start = json!({"event": [0, 0, 0, 0], "velocity": [0, 0.5, 0], "view": [0, 1, 0], "up": [0, 0, 1]});
+        let (start, angle) = if is_sky {
+            (start, None)
+        } else {
+            let line = format!("uglorentz -cv 0 .2 0 -ti 1 {scene} | ugrainbow -sz 48 27");
+            let about = studio.describe(&commands(&line)).unwrap();
+            let about: Value = serde_json::from_str(&about).unwrap();
+            (about["start"].clone(), about["angle"].as_f64())
+        };
+        let mut flight = Flight::new(&start.to_string()).unwrap();
+        for _ in 0..12 {
+            let [thrust, turn] = [1.5, 0.8].map(|most| [0; 3].map(|_| part(most)));
+            (0..4).for_each(|_| flight.step(0.03, &thrust, &turn));
+        }
+        let own_time = if row < 10 { flight.end() } else { 0.7317 };
+        let include = if is_sky { String::new() } else { format!("include {scene} ;\n") };
+        let text = flight.statements("flight", angle) + &include;
+        shell.write("flight.ug", &text);
+        studio.add("flight.ug".to_owned(), text.into_bytes());
+        let (line, film, source) = if is_sky {
+            let line = format!("ugwarp --scene flight.ug -ti {own_time} {scene} -look light");
+            (line, "-warp --scene flight.ug", scene)
+        } else {
+            let line = format!("uglorentz -ti {own_time} flight.ug | ugdoppler | ugrainbow");
+            (line, "-look 1988", "flight.ug")
+        };
+        let shown = studio.draw(&commands(&format!("{line} -sz 48 27"))).unwrap();
+        shell.run(&format!(
+            "ugfilm {film} -frames 1 -ti {own_time} -sz 48 27 -fo frame{row}_%d.png {source}"
+        ));
+        assert!(
+            shown.pixels() == shell.pixels(&format!("frame{row}_1.png")).as_flattened(),
+            "{scene} at {own_time}"
+        );
+        // As the page draws it in flight.
+        let pose = pose(&mut flight, own_time);
+        let [t, x, y, z] = numbers(&pose, "event");
+        let velocity = DVec3::from(numbers(&pose, "velocity"));
+        let eye = DVec3::new(x, y, z) - velocity * t;
+        let [view, up] = ["view", "up"].map(|name| DVec3::from(numbers(&pose, name)));
+        let words = |name: &str, v: DVec3| format!(" -{name} {} {} {}", v.x, v.y, v.z);
+        let camera = words("cv", velocity) + &words("ud", up);
+        let live = if is_sky {
+            format!("ugwarp{camera}{} {scene} -look light", words("vc", view))
+        } else {
+            let clock = t / pose["gamma"].as_f64().unwrap();
+            let place = words("ep", eye) + &words("vc", eye + view);
+            format!("uglorentz{camera}{place} -ti {clock} {scene} | ugdoppler | ugrainbow")
+        };
+        let drawn = studio.draw(&commands(&format!("{live} -sz 48 27"))).unwrap();
+        let both = drawn.pixels().into_iter().zip(shown.pixels());
+        let n_other = both.filter(|(a, b)| a.abs_diff(*b) > 8).count();
+        assert!(n_other <= 40, "{scene} at {own_time}: {n_other} of 5184 bytes differ");
+    }
+}
+
+/// Finder patterns in three corners; texts that are too long have no code.
+#[test]
+fn links_have_qr_codes() {
+    let code = qr_code("https://example.org/uglorentz.html#s=house.ug");
+    let size = (1..).find(|size| size * size >= code.len()).unwrap();
+    assert_eq!(size * size, code.len());
+    let at = |x: usize, y: usize| code[y * size + x];
+    for [x, y] in [[0, 0], [size - 7, 0], [0, size - 7]] {
+        for k in 0..7 {
+            assert_eq!([at(x + k, y), at(x + k, y + 6), at(x, y + k), at(x + 6, y + k)], [1; 4]);
+        }
+        assert_eq!([at(x + 1, y + 1), at(x + 3, y + 3)], [0, 1]);
+    }
+    assert!(qr_code(&"x".repeat(3000)).is_empty());
 }

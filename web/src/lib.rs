@@ -21,15 +21,18 @@
 //! ```
 
 mod commands;
+mod flight;
 mod python;
 mod subject;
 
+use qrcodegen::{QrCode, QrCodeEcc};
 use ugfilm::Pipe;
 use ugpicture::Rendering;
 use ugpipe::{Failure, Input, Words, shell_pipe};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::commands::Commands;
+pub use crate::flight::Flight;
 use crate::subject::Subject;
 
 /// Files, of which the one that was drawn last is kept as it was read.
@@ -64,8 +67,14 @@ impl Studio {
         Self::default()
     }
 
-    /// Adds a file, by the name that commands and other files have for it.
+    /// Adds a file, by the name that commands and other files have for it, or replaces it.
     pub fn add(&mut self, name: String, bytes: Vec<u8>) {
+        let n_others = self.files.len();
+        self.files.retain(|file| file.name != name);
+        if self.files.len() < n_others {
+            // It may have been read.
+            self.subject = None;
+        }
         self.files.push(Input { name, text: bytes });
     }
 
@@ -89,8 +98,8 @@ impl Studio {
     }
 
     /// What is known of the input of a pipe, as JSON: its `kind` (`scene` or `sky`), and of a scene
-    /// its `eye`, `center`, `up` and view `angle` in degrees, and the `times` between which moving
-    /// bodies are in view.
+    /// its `eye`, `center`, `up` and view `angle` in degrees, the `times` between which moving
+    /// bodies are in view, and the `start` of a flight from its camera (see [`Flight::new`]).
     ///
     /// # Errors
     /// See [`Studio::draw`].
@@ -115,6 +124,15 @@ impl Studio {
     pub fn python(commands: &str) -> Result<String, String> {
         Ok(Commands::parse(commands)?.python())
     }
+}
+
+/// The QR code of a text: rows of dark (1) and light (0) modules, without the quiet zone around
+/// it; empty if the text is too long for one.
+#[wasm_bindgen]
+pub fn qr_code(text: &str) -> Vec<u8> {
+    let Ok(code) = QrCode::encode_text(text, QrCodeEcc::Medium) else { return Vec::new() };
+    let size = code.size();
+    (0..size * size).map(|row| u8::from(code.get_module(row % size, row / size))).collect()
 }
 
 impl Studio {

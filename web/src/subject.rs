@@ -2,11 +2,15 @@
 
 use std::ffi::OsString;
 
+use glam::DVec3;
 use serde_json::{Value, json};
 use ugfilm::{FilmSubject, Pipe, Program, SceneSky, SkySource};
 use ugparse::pipe;
+use ugphysics::{Event, Lorentz, Velocity};
 use ugpipe::{Context, Failure, Input, Words, parse_words};
-use ugscene::{BodyBoxes, CameraOptions, MotionOptions, Scene, common_camera};
+use ugscene::{
+    BodyBoxes, Camera, CameraOptions, MotionOptions, Scene, common_camera, moving_camera,
+};
 
 use crate::commands::Commands;
 
@@ -138,6 +142,7 @@ impl Subject {
         let angle =
             camera.view_angle.map(|(across, _)| across).or(own.view_angle.map(|angles| angles[0]));
         let times = boxes.times_in_view(&motion, &camera, size).ok().flatten();
+        let start = start(scene, &motion, &camera);
         json!({
             "kind": "scene",
             "eye": eye.to_array(),
@@ -145,6 +150,38 @@ impl Subject {
             "up": up,
             "angle": angle,
             "times": times.map(|times| [times.first, times.last, Some(times.best)]),
+            "start": start,
         })
     }
+}
+
+/// Where a flight from the camera of a picture begins, as [`crate::Flight::new`] reads it; `null`
+/// for an invalid camera.
+fn start(scene: &Scene, motion: &MotionOptions, options: &CameraOptions) -> Option<Value> {
+    let row = scene.camera_row();
+    let (camera, velocity) = match moving_camera(scene, motion, options).ok()? {
+        Some(moving) => moving,
+        None => {
+            let stated = motion.camera_velocity.map(Velocity::from_beta).transpose().ok()?;
+            let camera = Camera { center: options.center, ..Camera::default() };
+            (camera, stated.unwrap_or_default())
+        }
+    };
+    let eye = ugscene::eye(scene, options.eye);
+    let carrier = row.and_then(|row| scene.cameras[row].carrier);
+    let event = match carrier.filter(|_| motion.camera_velocity.is_none()) {
+        Some(body) => scene.bodies.motion(body).event(eye, motion.time).ok()?,
+        None => {
+            let passed = Event { t: motion.time, x: DVec3::ZERO };
+            Lorentz::boost(velocity).apply(passed) + Event { t: 0.0, x: eye }
+        }
+    };
+    let Event { t, x } = event;
+    let up = camera.up.or(options.up).unwrap_or(DVec3::Z);
+    Some(json!({
+        "event": [t, x.x, x.y, x.z],
+        "velocity": velocity.beta().to_array(),
+        "view": (camera.center? - eye).to_array(),
+        "up": up.to_array(),
+    }))
 }

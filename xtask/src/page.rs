@@ -9,7 +9,7 @@ use std::process::Command;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Map, Value};
-use ugtests::scenes::{self, root, target_dir};
+use ugtests::scenes::{root, target_dir};
 
 use crate::programs::{self, run};
 use crate::{Outcome, notices};
@@ -38,9 +38,11 @@ pub fn build(out: &mut impl io::Write, args: &Args) -> Outcome<()> {
     let wasm = fs::read(folder.join("ugweb_bg.wasm"))?;
     let page = web("page.html")?
         .replace("@MODULE@", &packed(&wasm))
-        .replace("@SCENES@", &packed(built_in()?.as_bytes()))
-        .replace("@WORKER@", &(glue + &web("worker.js")?))
-        .replace("@PAGE@", &web("page.js")?);
+        .replace("@SCENES@", &packed(built_in().as_bytes()))
+        .replace("@LESSONS@", &packed(lessons(&web("lessons.md")?)?.as_bytes()))
+        .replace("@GLUE@", &glue)
+        .replace("@WORKER@", &web("js/worker.js")?)
+        .replace("@PAGE@", &joined(&root().join("web/js"))?);
     let file = folder.join("uglorentz.html");
     fs::write(&file, &page)?;
     let mut notices = Vec::new();
@@ -131,18 +133,88 @@ fn bind(folder: &Path, module: &Path) -> io::Result<String> {
     fs::read_to_string(folder.join("ugweb.js"))
 }
 
-/// The scenes as JSON, from their names to their text.
-fn built_in() -> io::Result<String> {
-    let mut texts = Map::new();
-    for name in scenes::names()
-        .iter()
-        .map(|name| format!("{name}.ug"))
-        .chain(["globe.obj", "stars.csv"].map(str::to_owned))
-    {
-        let text = fs::read_to_string(root().join("scenes").join(&name))?;
-        texts.insert(name, Value::String(text));
+/// The files of `ugparse example` as JSON, from their names to their text, or to their bytes.
+fn built_in() -> String {
+    let content = |bytes: &[u8]| match std::str::from_utf8(bytes) {
+        Ok(text) => Value::from(text),
+        Err(_) => Value::from(bytes),
+    };
+    let files = ugparse::EXAMPLE_FILES.map(|(name, bytes)| (name.to_owned(), content(bytes)));
+    Value::Object(Map::from_iter(files)).to_string()
+}
+
+/// The modules of a folder as one script, each behind those that it imports. A page from a disk
+/// cannot load modules, so imports and the word `export` are left out.
+fn joined(folder: &Path) -> io::Result<String> {
+    let mut script = "'use strict';\n".to_owned();
+    add_module(folder, "main.js", &mut Vec::new(), &mut script)?;
+    Ok(script)
+}
+
+fn add_module(
+    folder: &Path,
+    name: &str,
+    added: &mut Vec<String>,
+    script: &mut String,
+) -> io::Result<()> {
+    if added.iter().any(|known| known == name) {
+        return Ok(());
     }
-    Ok(Value::Object(texts).to_string())
+    added.push(name.to_owned());
+    let text = fs::read_to_string(folder.join(name))?;
+    for line in text.lines() {
+        if let Some((_, from)) = line.strip_prefix("import ").and_then(|l| l.split_once("'./")) {
+            add_module(folder, from.trim_end_matches("';"), added, script)?;
+        }
+    }
+    for line in text.lines().filter(|line| !line.starts_with("import ")) {
+        script.push_str(line.strip_prefix("export ").unwrap_or(line));
+        script.push('\n');
+    }
+    Ok(())
+}
+
+/// The lessons of the scenes as JSON: rows of a table, with questions and answers of
+/// `docs/teaching.md` where a row names one of its experiments.
+fn lessons(table: &str) -> io::Result<String> {
+    let teaching = fs::read_to_string(root().join("docs/teaching.md"))?;
+    let experiments: Vec<&str> = teaching.split("\n## ").collect();
+    let part = |number: &str, word: &str| {
+        let experiment = experiments.iter().find(|text| text.starts_with(&format!("{number}.")));
+        let begin = experiment?.split_once(&format!("**{word}.** "))?.1;
+        Some(plain(begin.split("\n\n").next()?))
+    };
+    let rows = table.lines().filter(|line| line.starts_with("| ")).skip(2);
+    let lesson = |line: &str| {
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [scene, seen, why, question, answer] = cells[..] else { return None };
+        let (question, answer) = match question.strip_prefix("→ ") {
+            Some(number) => {
+                let answer = [part(number, "Answer")?, part(number, "By hand")?].join(" ");
+                (part(number, "Question")?, answer)
+            }
+            None => (plain(question), plain(answer)),
+        };
+        let parts = [("seen", plain(seen)), ("why", plain(why))];
+        let parts = parts.into_iter().chain([("question", question), ("answer", answer)]);
+        let parts = parts.map(|(name, text)| (name.to_owned(), Value::from(text)));
+        Some((scene.to_owned(), Value::Object(Map::from_iter(parts))))
+    };
+    let lessons: Option<Map<_, _>> = rows.map(lesson).collect();
+    let refused = || io::Error::other("web/lessons.md: a row has no five cells, or no experiment");
+    Ok(Value::Object(lessons.ok_or_else(refused)?).to_string())
+}
+
+/// Text without the links, code and line breaks of Markdown.
+fn plain(markdown: &str) -> String {
+    let mut text = String::new();
+    let mut rest = markdown;
+    while let Some((before, link)) = rest.split_once('[') {
+        let Some((name, behind)) = link.split_once(']') else { break };
+        text = text + before + name;
+        rest = behind.strip_prefix('(').and_then(|b| b.split_once(')')).map_or(behind, |b| b.1);
+    }
+    (text + rest).replace(['`', '*'], "").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Bytes as a browser unpacks them: base64 of zlib.
@@ -155,8 +227,11 @@ fn test(folder: &Path, page: &Path) -> io::Result<()> {
     let mut npm = Command::new("npm");
     npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"])
         .arg(folder)
-        .arg("playwright-core@1");
+        .args(["playwright-core@1", "typescript@7"]);
     run(&mut npm)?;
+    // The types of the modules, which Chromium runs without them.
+    let mut types = Command::new(folder.join("node_modules/.bin/tsc"));
+    run(types.arg("--project").arg(root().join("web/js/tsconfig.json")))?;
     let script = folder.join("test.mjs");
     fs::copy(root().join("web/test.mjs"), &script)?;
     run(Command::new("node")

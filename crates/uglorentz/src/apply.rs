@@ -77,7 +77,9 @@ pub fn apply_with(
     let mut mesh = RefinedMesh::new(motions, points);
     let mut n_open_junctions = 0;
     match config.pieces {
-        Pieces::UpTo(_) | Pieces::UpToPixels(_) => mesh.junctions = junctions::find(&scene, &mesh.points, motions),
+        Pieces::UpTo(_) | Pieces::UpToPixels(_) => {
+            mesh.junctions = junctions::find(&scene, &mesh.points, motions)
+        }
         // Rays (`ugrainbow -xc`) meet the faces at rest.
         Pieces::PerEdge(1) => {}
         Pieces::PerEdge(_) => {
@@ -156,11 +158,13 @@ fn check(config: &Config) -> Result<(), Error> {
             Err(Error::NoPixelBound { pixels })
         }
         Pieces::UpTo(_) | Pieces::UpToPixels(_)
-            if config.color_error.is_nan() || config.color_error <= 0.0 => {
+            if config.color_error.is_nan() || config.color_error <= 0.0 =>
+        {
             Err(Error::NoColorBound { error: config.color_error })
         }
         Pieces::UpTo(_) | Pieces::UpToPixels(_)
-            if config.light_error.is_nan() || config.light_error <= 0.0 => {
+            if config.light_error.is_nan() || config.light_error <= 0.0 =>
+        {
             Err(Error::NoLightBound { error: config.light_error })
         }
         Pieces::PerEdge(0) => Err(Error::NoPieces),

@@ -182,7 +182,7 @@ impl Picture {
     }
 
     fn seen(&self, pieces: Pieces) -> Result<Scene, String> {
-        let MotionOptions { velocity, camera_velocity, time, anchor, in_place, geometry } =
+        let MotionOptions { velocity, camera_velocity, time, anchor, in_place, geometry, zero } =
             self.motion.clone();
         let Self { size, light_error, .. } = *self;
         let config = uglorentz::Config {
@@ -192,6 +192,7 @@ impl Picture {
             anchor,
             in_place,
             geometry,
+            zero,
             size,
             pieces,
             light_error,

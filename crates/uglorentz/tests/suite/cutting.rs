@@ -706,7 +706,8 @@ fn faces_for_rays_stay_whole() {
     let partial = Config { geometry, ..exact.clone() };
     let mut flat = exact.clone();
     flat.camera.is_orthographic = true;
-    let small = "c k .5; c e 1 60 1; c_emit k e; v a 0 9 0; v b .001 9 0; v c 0 9 .001; f (a b c) k;";
+    let small =
+        "c k .5; c e 1 60 1; c_emit k e; v a 0 9 0; v b .001 9 0; v c 0 9 .001; f (a b c) k;";
     let plain = format!("{corners} f (a b c d);");
     for (text, config, is_cut, is_whole) in [
         (&*glowing, &exact, false, true),
