@@ -91,10 +91,13 @@ export function commands(c, { size = sides(), file = null, isDraft = false, pose
   const bodies = [...motion, ...time, ...camera];
   if (isRays) return [['ugphoton', ...bodies, '-look', c.look, ...colors(c), ...lens, name, ...output]];
   // The camera of a scene without one suits the shape of the picture.
-  const shape = 3 * size[0] === 4 * size[1] || isFlown || state.camera?.isMoved ? [] : ['-sz', ...size.map(String)];
+  const isGiven = !isDraft && (3 * size[0] === 4 * size[1] || isFlown || state.camera?.isMoved);
+  const shape = isGiven ? [] : ['-sz', ...size.map(String)];
+  // Pieces of a draft are as large as its pixels allow.
+  const pieces = isDraft ? ['-se', '.15px', '-sc', '1'] : [];
   const tinted = c.look === 'shape' ? [] : [['ugdoppler', ...flag(c.look === 'light', '-look', 'light'), ...colors(c)]];
   const tint = c.look === '1988' ? [] : ['-look', c.look];
-  return [['uglorentz', ...bodies, ...geometry(c), ...shape, name], ...tinted, ['ugrainbow', ...tint, ...output]];
+  return [['uglorentz', ...bodies, ...geometry(c), ...shape, ...pieces, name], ...tinted, ['ugrainbow', ...tint, ...output]];
 }
 
 /**

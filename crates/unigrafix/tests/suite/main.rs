@@ -38,6 +38,7 @@ fn every_type_of_a_config_has_a_name() {
         pieces: lorentz::Pieces,
         color_error: f64,
         light_error: f64,
+        is_for_rays: bool,
         measure: bool,
         smooth: bool,
         repeat: bool,
