@@ -204,7 +204,7 @@ fn messages_are_those_of_the_programs() {
 fn descriptions_are_of_the_picture() {
     let shell = Shell::new(&["globe.obj", "traffic.ug"]);
     let mut studio = studio(&shell, &["globe.obj", "traffic.ug"]);
-    let about = |text: String| serde_json::from_str::<serde_json::Value>(&text).unwrap();
+    let about = |text: String| serde_json::from_str::<Value>(&text).unwrap();
     let globe = about(
         studio
             .describe(&commands("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -sz 40 30"))
