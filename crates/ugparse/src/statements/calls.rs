@@ -66,7 +66,7 @@ impl Forms for Transforms {
 }
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn call(&mut self, is_array: bool) -> Outcome<'t> {
+    pub fn call(&mut self, is_array: bool) -> Outcome<'t> {
         let name = self.optional_name()?;
         self.take(mark(b'(', "`(` and the name of a definition"))?;
         let definition = self.name("the name of a definition")?;

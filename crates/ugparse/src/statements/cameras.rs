@@ -24,7 +24,7 @@ pub(super) static OPTIONS: OptionTable<Camera> = OptionTable {
 };
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn camera(&mut self) -> Outcome<'t> {
+    pub fn camera(&mut self) -> Outcome<'t> {
         let name = self.optional_name()?;
         let mut camera = Camera::default();
         OPTIONS.read(&mut camera, self)?;

@@ -9,7 +9,7 @@ use crate::source::Span;
 use crate::token::number;
 
 /// A colour that is a few numbers.
-pub(super) struct ColorNumbers {
+pub(crate) struct ColorNumbers {
     valid: &'static [Valid],
     /// How many of them must be there.
     n_required: usize,
@@ -69,7 +69,7 @@ pub(super) static BLACKBODY: ColorNumbers = ColorNumbers {
 };
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn color(&mut self, of: &ColorNumbers) -> Outcome<'t> {
+    pub fn color(&mut self, of: &ColorNumbers) -> Outcome<'t> {
         let name = self.optional_name()?;
         let numbers = self.numbers(of.valid.iter().copied(), of.n_required)?;
         let translucency = numbers.get(of.translucency).copied().unwrap_or_default();
@@ -90,7 +90,7 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// Samples, or a known spectrum in place of them.
-    pub(super) fn spectrum(&mut self, reflects: bool) -> Outcome<'t> {
+    pub fn spectrum(&mut self, reflects: bool) -> Outcome<'t> {
         let first_at = self.rest;
         let name = self.optional_name()?;
         let second_at = self.rest;
@@ -118,7 +118,7 @@ impl<'t> Grammar<'t, '_> {
         self.end_color(name, value, 0.0)
     }
 
-    pub(super) fn surface(&mut self) -> Outcome<'t> {
+    pub fn surface(&mut self) -> Outcome<'t> {
         let name = self.name(NAME)?;
         let valid = SurfaceProperties::NUMBERS
             .map(|number| Valid::Range(*number.range.start(), *number.range.end(), number.rule));

@@ -34,13 +34,13 @@ pub(super) static TEXTURE: OptionTable<Texture> = OptionTable {
 };
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn mix(&mut self) -> Outcome<'t> {
+    pub fn mix(&mut self) -> Outcome<'t> {
         let color = self.color_name()?;
         let parts = self.pairs(Self::color_name, |grammar| grammar.number(Valid::SHARE))?;
         self.end_row(|scope| &mut scope.mixes, Mix { color, parts })
     }
 
-    pub(super) fn times(&mut self) -> Outcome<'t> {
+    pub fn times(&mut self) -> Outcome<'t> {
         let name = self.name(NAME)?;
         let color = self.color_id(name);
         let mut table =
@@ -77,7 +77,7 @@ impl<'t> Grammar<'t, '_> {
         Ok(())
     }
 
-    pub(super) fn texture(&mut self) -> Outcome<'t> {
+    pub fn texture(&mut self) -> Outcome<'t> {
         let color = self.color_name()?;
         let file = self.file("the file of a picture")?;
         // The bytes of the picture are set when the colours of all scopes are joined.
@@ -92,7 +92,7 @@ impl<'t> Grammar<'t, '_> {
         Ok(())
     }
 
-    pub(super) fn emission(&mut self) -> Outcome<'t> {
+    pub fn emission(&mut self) -> Outcome<'t> {
         let colors = [self.color_name()?, self.color_name()?];
         self.end_row(|scope| &mut scope.emissions, colors)
     }

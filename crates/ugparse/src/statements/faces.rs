@@ -16,7 +16,7 @@ use crate::statement::NameKind;
 use crate::token::{label_text, mark, number, number32, point};
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn vertex(&mut self) -> Outcome<'t> {
+    pub fn vertex(&mut self) -> Outcome<'t> {
         let name = self.name(NAME)?;
         let position = self.take(point)?;
         let color = self.optional_color()?;
@@ -36,14 +36,14 @@ impl<'t> Grammar<'t, '_> {
         Ok(())
     }
 
-    pub(super) fn face(&mut self) -> Outcome<'t> {
+    pub fn face(&mut self) -> Outcome<'t> {
         let name = self.optional_name()?;
         let contours = self.contours()?;
         self.behind_shape(name, FaceShape::Polygon, contours)
     }
 
     /// `[color] [level or surface] [< motion >] ;`
-    pub(super) fn behind_shape(
+    pub fn behind_shape(
         &mut self,
         name: Option<Span>,
         shape: FaceShape,
@@ -70,7 +70,7 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// The velocity of a wire is our extension, for flat scenes.
-    pub(super) fn wire(&mut self) -> Outcome<'t> {
+    pub fn wire(&mut self) -> Outcome<'t> {
         let name = self.optional_name()?;
         let contours = self.contours()?;
         let color = self.optional_color()?;
@@ -79,7 +79,7 @@ impl<'t> Grammar<'t, '_> {
         self.end_row(|scope| &mut scope.wires, wire)
     }
 
-    pub(super) fn label(&mut self) -> Outcome<'t> {
+    pub fn label(&mut self) -> Outcome<'t> {
         let name = self.optional_name()?;
         self.at()?;
         let text = self.take(label_text)?;

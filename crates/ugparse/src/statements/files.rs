@@ -14,14 +14,14 @@ pub(super) static SKY: OptionTable<[f64; 3]> =
 
 impl<'t> Grammar<'t, '_> {
     /// The text of a file, or the output of a program.
-    pub(super) fn text_of(&mut self, kind: RequestKind) -> Outcome<'t> {
+    pub fn text_of(&mut self, kind: RequestKind) -> Outcome<'t> {
         let file = self.file(FILE_NAME)?;
         let span = self.end()?;
         self.requests.push(FileStatement { span, ..file }.request(kind));
         Ok(())
     }
 
-    pub(super) fn sky(&mut self) -> Outcome<'t> {
+    pub fn sky(&mut self) -> Outcome<'t> {
         let file = self.file(FILE_NAME)?;
         let mut turn = [0.0; 3];
         SKY.read_one(&mut turn, self)?;

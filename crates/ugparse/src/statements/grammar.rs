@@ -78,17 +78,14 @@ impl Valid {
 
 impl<'t> Grammar<'t, '_> {
     /// Reads a token.
-    pub(super) fn take<T>(
-        &mut self,
-        token: impl FnOnce(Input<'t>) -> Parsed<'t, T>,
-    ) -> Outcome<'t, T> {
+    pub fn take<T>(&mut self, token: impl FnOnce(Input<'t>) -> Parsed<'t, T>) -> Outcome<'t, T> {
         let value;
         (self.rest, value) = token(self.rest)?;
         Ok(value)
     }
 
     /// Reads a token, if it is there.
-    pub(super) fn optional<T>(
+    pub fn optional<T>(
         &mut self,
         token: impl FnOnce(Input<'t>) -> Parsed<'t, T>,
     ) -> Outcome<'t, Option<T>> {
@@ -99,21 +96,21 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// Where the next token begins.
-    pub(super) fn at(&mut self) -> Outcome<'t, Input<'t>> {
+    pub fn at(&mut self) -> Outcome<'t, Input<'t>> {
         self.take(blank)?;
         Ok(self.rest)
     }
 
-    pub(super) fn number(&mut self, valid: Valid) -> Outcome<'t, f64> {
+    pub fn number(&mut self, valid: Valid) -> Outcome<'t, f64> {
         self.take(|input| valid.read(input))
     }
 
-    pub(super) fn optional_number(&mut self, valid: Valid) -> Outcome<'t, Option<f64>> {
+    pub fn optional_number(&mut self, valid: Valid) -> Outcome<'t, Option<f64>> {
         self.optional(|input| valid.read(input))
     }
 
     /// Reads numbers, of which those from `n_required` on may be missing.
-    pub(super) fn numbers(
+    pub fn numbers(
         &mut self,
         valid: impl IntoIterator<Item = Valid>,
         n_required: usize,
@@ -129,7 +126,7 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// Reads pairs, one or more, up to where `first` does not match.
-    pub(super) fn pairs<A, B>(
+    pub fn pairs<A, B>(
         &mut self,
         mut first: impl FnMut(&mut Self) -> Outcome<'t, A>,
         second: impl Fn(&mut Self) -> Outcome<'t, B>,
@@ -144,14 +141,14 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// Reads the end of the statement.
-    pub(super) fn end(&mut self) -> Outcome<'t, Span> {
+    pub fn end(&mut self) -> Outcome<'t, Span> {
         self.take(mark(b';', END))?;
         self.scope.n_statements += 1;
         Ok(Span { start: self.start, end: self.position() })
     }
 
     /// Reads the end of the statement, and adds its row to a table.
-    pub(super) fn end_row<T>(
+    pub fn end_row<T>(
         &mut self,
         table: for<'a> fn(&'a mut Scope<'t>) -> &'a mut Rows<T>,
         row: T,
@@ -162,7 +159,7 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// The byte position up to which the text is read.
-    pub(super) fn position(&self) -> u32 {
+    pub fn position(&self) -> u32 {
         // `parse` refuses texts of 4 GiB and more.
         (self.text.len() - self.rest.len()) as u32
     }
@@ -174,17 +171,17 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// Reads a name, for messages `what`.
-    pub(super) fn name(&mut self, what: &'static str) -> Outcome<'t, Span> {
+    pub fn name(&mut self, what: &'static str) -> Outcome<'t, Span> {
         let name = self.take(|input| wanted(identifier(input), what))?;
         Ok(self.span(name))
     }
 
-    pub(super) fn optional_name(&mut self) -> Outcome<'t, Option<Span>> {
+    pub fn optional_name(&mut self) -> Outcome<'t, Option<Span>> {
         Ok(self.optional(identifier)?.map(|name| self.span(name)))
     }
 
     /// Adds the name of the statement itself.
-    pub(super) fn own_name(&mut self, name: Option<Span>) -> Option<NameId> {
+    pub fn own_name(&mut self, name: Option<Span>) -> Option<NameId> {
         name.map(|name| {
             self.names.push((NameKind::Own, name));
             self.scope.add_name(name.of(self.text))
@@ -192,22 +189,22 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// The number of the name of a colour.
-    pub(super) fn color_id(&mut self, name: Span) -> ColorId {
+    pub fn color_id(&mut self, name: Span) -> ColorId {
         self.names.push((NameKind::Color, name));
         ColorId::from_index(self.scope.colors.names.enter(name.of(self.text)))
     }
 
-    pub(super) fn color_name(&mut self) -> Outcome<'t, ColorId> {
+    pub fn color_name(&mut self) -> Outcome<'t, ColorId> {
         let name = self.name(NAME)?;
         Ok(self.color_id(name))
     }
 
-    pub(super) fn optional_color(&mut self) -> Outcome<'t, Option<ColorId>> {
+    pub fn optional_color(&mut self) -> Outcome<'t, Option<ColorId>> {
         Ok(self.optional_name()?.map(|name| self.color_id(name)))
     }
 
     /// Reads one or more `( vertex … )`; returns the rows of the contours.
-    pub(super) fn contours(&mut self) -> Outcome<'t, Range<u32>> {
+    pub fn contours(&mut self) -> Outcome<'t, Range<u32>> {
         let first = self.scope.contours.row_count();
         self.take(mark(b'(', "`(` and vertex names"))?;
         loop {
@@ -223,7 +220,7 @@ impl<'t> Grammar<'t, '_> {
         }
     }
 
-    pub(super) fn corner(&mut self) -> Outcome<'t> {
+    pub fn corner(&mut self) -> Outcome<'t> {
         let name = self.name("a vertex name")?;
         self.push_corner(name);
         Ok(())
@@ -236,19 +233,19 @@ impl<'t> Grammar<'t, '_> {
     }
 
     /// Reads `[< motion >]`; returns the body that what is stated is part of.
-    pub(super) fn body(&mut self) -> Outcome<'t, BodyId> {
+    pub fn body(&mut self) -> Outcome<'t, BodyId> {
         let motion = self.optional_motion()?;
         let unstated = self.scope.bodies.bodies.unstated();
         Ok(motion.map_or(unstated, |motion| self.body_with(motion, DVec3::ZERO)))
     }
 
     /// The body with a motion. `at`: its reference point, if none is stated.
-    pub(super) fn body_with(&mut self, motion: MotionReference, at: DVec3) -> BodyId {
+    pub fn body_with(&mut self, motion: MotionReference, at: DVec3) -> BodyId {
         self.scope.bodies.of_reference(self.text, motion, at)
     }
 
     /// Reads the name of a file, for messages `what`.
-    pub(super) fn file(&mut self, what: &'static str) -> Outcome<'t, FileStatement> {
+    pub fn file(&mut self, what: &'static str) -> Outcome<'t, FileStatement> {
         let at = self.at()?;
         let start = self.position();
         let name = self.take(|input| wanted(file_name(input), what))?;

@@ -18,7 +18,7 @@ pub(super) static BEAMS: OptionTable<Beam> = OptionTable {
 };
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn light(&mut self) -> Outcome<'t> {
+    pub fn light(&mut self) -> Outcome<'t> {
         let name = self.optional_name()?;
         let intensity = self.number(Valid::not_negative("an intensity is 0 or more"))?;
         let kind = self.light_kind()?;

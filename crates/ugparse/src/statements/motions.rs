@@ -23,7 +23,7 @@ pub(super) static OPTIONS: OptionTable<MotionStatement> = OptionTable {
         option("at x y z", |motion| &mut motion.at),
         option("vel x y z", |motion| &mut motion.velocity),
         option("acc x y z [begin end]", |motion| &mut motion.accelerations),
-        option("path FILE or events", |motion| &mut motion.path),
+        option("path FILE", |motion| &mut motion.path),
         option("on NAME", |motion| &mut motion.on),
         option("spin x y z [begin end]", |motion| &mut motion.spins),
         option("shift t x y z", |motion| &mut motion.shift),
@@ -61,7 +61,7 @@ impl Forms for Curves {
 }
 
 impl<'t> Grammar<'t, '_> {
-    pub(super) fn motion(&mut self) -> Outcome<'t> {
+    pub fn motion(&mut self) -> Outcome<'t> {
         let name = self.name(NAME)?;
         let mut motion = MotionStatement { name, ..MotionStatement::default() };
         loop {
@@ -112,7 +112,7 @@ impl<'t> Grammar<'t, '_> {
         Ok(numbers)
     }
 
-    pub(super) fn optional_motion(&mut self) -> Outcome<'t, Option<MotionReference>> {
+    pub fn optional_motion(&mut self) -> Outcome<'t, Option<MotionReference>> {
         let is_stated = self.at()?.starts_with(b"<");
         if is_stated { self.motion_reference().map(Some) } else { Ok(None) }
     }

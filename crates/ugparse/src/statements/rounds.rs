@@ -16,7 +16,7 @@ pub(super) static INNER: OptionTable<f64> = OptionTable {
 
 impl<'t> Grammar<'t, '_> {
     /// Numbers, or contours in place of them.
-    pub(super) fn round(&mut self, shape: FaceShape) -> Outcome<'t> {
+    pub fn round(&mut self, shape: FaceShape) -> Outcome<'t> {
         let behind_keyword = self.position();
         let name = self.optional_name()?;
         if self.at()?.starts_with(b"(") {

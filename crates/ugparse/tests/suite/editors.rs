@@ -143,7 +143,7 @@ if exists("b:current_syntax") | finish | endif
 setlocal iskeyword=@,48-57,_,:,#,-
 syn keyword ugKeyword contained {keywords}
 syn keyword ugOption {options}
-syn match ugStatement /\%(^\|[;}}]\)\s*\zs\h\w*/ contains=ugKeyword
+syn match ugStatement /\%(^\|[;}}]\)\@1<=\s*\h\w*/ contains=ugKeyword
 syn match ugNumber /[-+]\?\%(\d\+\.\?\d*\|\.\d\+\)\%([eE][-+]\?\d\+\)\?\>/
 syn region ugString start=/"/ end=/"/ oneline
 syn region ugComment start=/{{/ end=/}}/ contains=ugComment
