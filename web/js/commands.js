@@ -8,9 +8,9 @@ import { sides, state } from './state.js';
  * @typedef {import('./state.js').Pose} Pose
  *
  * How a picture is drawn. `size`: another one than that of the page. `file`: what it is saved in. `pose`: of a camera
- * that flies. `flight`: the scene of the flight, and its own time.
+ * that flies. `flight`: the scene of the flight, and its own time. `exposure`: in stops, empty to find it.
  * @typedef {{ size?: number[], file?: string | null, isDraft?: boolean, pose?: Pose | null,
- *   flight?: { name: string, time: number } | null }} Way
+ *   flight?: { name: string, time: number } | null, exposure?: string }} Way
  */
 
 const option = (/** @type {string} */ name, /** @type {number[]} */ numbers, places = 4) =>
@@ -61,23 +61,37 @@ const geometry = (/** @type {Controls} */ c) => [
 const colors = (/** @type {Controls} */ c) => c.look === 'shape' ? []
   : [...flag(c.noDoppler, '--no-doppler'), ...flag(c.noFlux, '--no-flux')];
 
+/** The options among words that ugfilm gives to a program of a frame: each goes to the first that has it, but for `-sky`. */
+function of(/** @type {string} */ program, /** @type {string[]} */ all) {
+  const pipe = ['uglorentz', 'ugdoppler', 'ugrainbow'];
+  let isIts = false;
+  return all.filter(word => {
+    if (/^--?[a-z]/i.test(word)) {
+      const owners = pipe.filter(name => wasm_bindgen.Studio.has(name, word));
+      isIts = /^--?sky/.test(word) ? owners.includes(program) : owners[0] === program || !owners.length && program === 'ugrainbow';
+    }
+    return isIts;
+  });
+}
+
 /**
  * The commands of a picture: the words of each program.
  * @param {Controls} c
  * @param {Way} way
  */
-export function commands(c, { size = sides(), file = null, isDraft = false, pose = null, flight = null } = {}) {
+export function commands(c, { size = sides(), file = null, isDraft = false, pose = null, flight = null, exposure = '' } = {}) {
   const isRays = !state.isSky && c.rays;
+  const isFlown = !!(pose || flight);
+  const isThree = !state.isSky && !isRays;
   const output = [
     ...flag(!!file?.endsWith('.svg') && !isRays && !state.isSky, '-vec'),
     '-sz', ...size.map(String),
     ...flag(c.dl && !state.isSky, '-dl'), ...flag(c.gr && !state.isSky, '-gr'),
     ...flag(c.lg && !isDraft, '-lg'), ...flag(c.map && !state.isSky, '-map', 'D'),
-    ...flag(!!c.unit, '-unit', c.unit), ...flag(!!c.light, '-c', c.light),
-    ...words(c.more), ...flag(!!file, '-fo', file ?? ''),
+    ...flag(!!c.unit, '-unit', c.unit), ...flag(!!c.light, '-c', c.light), ...flag(!!exposure, '-ex', exposure),
+    ...(isFlown && isThree ? of('ugrainbow', words(c.more)) : words(c.more)), ...flag(!!file, '-fo', file ?? ''),
   ];
   const lens = words(c.lens);
-  const isFlown = pose || flight;
   const name = flight?.name ?? state.name;
   const time = flight ? exact('-ti', [flight.time]) : c.time && !pose ? option('-ti', [c.time], 3) : [];
   if (state.isSky) {
@@ -90,11 +104,19 @@ export function commands(c, { size = sides(), file = null, isDraft = false, pose
   const camera = pose ? poseWords(pose) : flight ? [] : cameraWords(c);
   const bodies = [...motion, ...time, ...camera];
   if (isRays) return [['ugphoton', ...bodies, '-look', c.look, ...colors(c), ...lens, name, ...output]];
-  // The camera of a scene without one suits the shape of the picture.
-  const isGiven = !isDraft && (3 * size[0] === 4 * size[1] || isFlown || state.camera?.isMoved);
-  const shape = isGiven ? [] : ['-sz', ...size.map(String)];
   // Pieces of a draft are as large as its pixels allow.
   const pieces = isDraft ? ['-se', '.15px', '-sc', '1'] : [];
+  if (isFlown) {
+    // As ugfilm draws it.
+    const [first, second] = ['uglorentz', 'ugdoppler'].map(program => of(program, words(c.more)));
+    const sharp = c.look !== '1988' && !first.includes('-vr') ? ['-vr'] : [];
+    const coarse = isDraft ? ['-sz', ...size.map(String), ...pieces] : [];
+    return [['uglorentz', ...bodies, ...geometry(c), ...sharp, ...first, ...coarse, name], ['ugdoppler', '-look', c.look, ...second, ...colors(c)],
+      ['ugrainbow', '-look', c.look, ...output]];
+  }
+  // The camera of a scene without one suits the shape of the picture.
+  const isGiven = !isDraft && (3 * size[0] === 4 * size[1] || state.camera?.isMoved);
+  const shape = isGiven ? [] : ['-sz', ...size.map(String)];
   const tinted = c.look === 'shape' ? [] : [['ugdoppler', ...flag(c.look === 'light', '-look', 'light'), ...colors(c)]];
   const tint = c.look === '1988' ? [] : ['-look', c.look];
   return [['uglorentz', ...bodies, ...geometry(c), ...shape, ...pieces, name], ...tinted, ['ugrainbow', ...tint, ...output]];
@@ -112,7 +134,7 @@ export function film(c, { name, end, frames }, isPanorama = false) {
   const size = isPanorama ? ['4096', '2048'] : ['3840', '2160'];
   const effects = [...(c.rays || isPanorama || state.isSky ? [] : geometry(c)), ...colors(c)];
   const base = name.replace(/\.ug$/, isPanorama ? '-360' : '');
-  return ['ugfilm', ...kind, '-frames', String(frames), '-ti', `0..${end}`, ...effects, '-look', c.look, ...lens,
+  return ['ugfilm', ...kind, '-frames', String(frames), '-ti', `0..${end}`, ...effects, '-look', c.look, ...flag(!!state.exposure, '-ex', state.exposure), ...lens,
     ...words(c.more), '-sz', ...size, '-fo', `${base}.mp4`, state.isSky ? state.name : name];
 }
 

@@ -99,6 +99,7 @@ let restTimer = 0;
 /** Something has changed: a small picture at once, and the full one when nothing changes any more. */
 export function changed() {
   state.turn += 1;
+  state.exposure = '';
   if (full.isBusy) full.stop();
   work.isStopped = false;
   work.since = Math.min(work.since, performance.now());
@@ -166,6 +167,11 @@ async function drawFull() {
     if (!answer || !isNow()) return;
     views[row].show(answer, turn);
     if (row === 0) notes(answer.result.notes);
+    if (row === 0 && way && !way.exposure) {
+      // A film has one exposure, so its line, and that of the picture, state the one of this moment.
+      state.exposure = /exposure is (\S+) stops/.exec(plain(answer.result.notes))?.[1] ?? '';
+      told.forEach(tell => tell());
+    }
   }
   if (!isNow()) return;
   state.drawn = turn;

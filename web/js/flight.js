@@ -7,7 +7,7 @@ import { controls, state } from './state.js';
 
 /**
  * @typedef {import('./state.js').Pose} Pose
- * @typedef {{ flight: { name: string, time: number }, files: [string, Uint8Array][] }} Way
+ * @typedef {{ flight: { name: string, time: number }, exposure: string, files: [string, Uint8Array][] }} Way
  */
 
 /** The real speed of light, m/s, and the acceleration of fall, m/s². */
@@ -70,7 +70,7 @@ export const flying = {
   way() {
     if (!craft) return null;
     const name = fileName();
-    return { flight: { name, time: own }, files: [[name, new TextEncoder().encode(text())]] };
+    return { flight: { name, time: own }, exposure: state.exposure, files: [[name, new TextEncoder().encode(text())]] };
   },
 
   /** The line of the film; empty if nothing is flown. */

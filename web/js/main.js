@@ -162,7 +162,7 @@ async function take(/** @type {[string, Uint8Array][]} */ files, /** @type {Part
 function choose(/** @type {string} */ name, link = /** @type {ReturnType<typeof parsed>} */ (null)) {
   const [, , some] = SCENES.find(([file]) => file === name) ?? [];
   // Scenes name their textures, which are few and small.
-  const textures = Object.keys(bundled).filter(file => PANORAMAS.test(file));
+  const textures = MESHES.test(name) ? Object.keys(bundled).filter(file => PANORAMAS.test(file)) : [];
   const files = [name, ...textures].map(file => /** @type {[string, Uint8Array]} */ ([file, bundled[file]]));
   return take(files, some ?? { moves: 'own' }, true, link);
 }

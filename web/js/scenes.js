@@ -39,7 +39,7 @@ export const SCENES = [
   ['jet.ug', 'Faster than light?', { moves: 'own', time: 1, size: '960 540' }],
   ['snapshot.ug', 'Photographed in 2025', { moves: 'own' }],
   ['lamp.ug', 'A lamp flies over a floor', { ...OWN, look: '1988', more: '' }],
-  ['lanterns.ug', 'Lanterns light up', { ...OWN, rays: true, time: 20, look: 'light' }],
+  ['lanterns.ug', 'Lanterns light up', { ...OWN, rays: true, time: 20, look: 'light', more: '--no-shadows -aa 2' }],
   ['mirrors.ug', 'A mirror image lags', RAYS],
   ['shadow.ug', 'A shadow lags', RAYS],
   ['spinning.ug', 'A sphere spins before a mirror', { ...OWN, rays: true, time: 8 }],

@@ -41,6 +41,8 @@ export const state = {
   start: null,
   azimuth: 0,
   format: 'png',
+  /** The exposure of the full picture in a flight, in stops, where it is found automatically. */
+  exposure: '',
   /** Counts changes. */
   turn: 0,
   /** The last change whose full picture is shown. */

@@ -109,6 +109,19 @@ impl Studio {
         Ok(self.subject(&commands)?.describe(&pipe).to_string())
     }
 
+    /// True if a program that draws has this option, with or without dashes.
+    pub fn has(program: &str, option: &str) -> bool {
+        let name = option.trim_start_matches('-');
+        let mut options = ugfilm::TOOLS
+            .iter()
+            .filter(|tool| tool.name() == program)
+            .flat_map(|tool| tool.options());
+        options.any(|arg| {
+            let others = arg.get_all_aliases().unwrap_or_default();
+            arg.get_long() == Some(name) || others.contains(&name)
+        })
+    }
+
     /// The pipe as a line for a shell.
     ///
     /// # Errors
