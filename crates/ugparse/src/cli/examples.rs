@@ -17,8 +17,8 @@ pub const EXAMPLE_FILES: [(&str, &[u8]); 56] = files![
     "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
     "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
     "room.ug" "water.ug" "marbles.ug" "rainbow.ug" "halves.ug" "avenue.ug" "town.ug" "saturn.ug"
-    "stones.ug" "tram.ug" "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "train.ug" "barn.ug"
-    "bell.ug" "facade.png"
+    "stones.ug" "tram.ug" "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "train.ug" "doors.ug"
+    "string.ug" "facade.png"
     "facade-yellow.png" "facade-brown.png" "facade-grey.png" "paving.png" "crate.gltf" "globe.obj"
     "stars.csv"
 ];
