@@ -200,7 +200,6 @@ impl ToolArgs for Args {
         "-se",
         "-sm",
         "-nc",
-        "--no-flight-time",
         "--measured",
         "-at",
         "-fo",
