@@ -11,7 +11,7 @@ use ugtests::documents::{Page, fill, shrunk, transcripts, with_options, written_
 use ugtests::{programs, scenes, tools, tracked};
 
 /// Pages with commands, the folder that they name, and the least number of commands.
-const PAGES: [(&str, Folder, usize); 13] = [
+const PAGES: [(&str, Folder, usize); 14] = [
     ("README.md", Folder::Examples, 18),
     ("docs/start.md", Folder::Empty, 9),
     ("docs/teaching.md", Folder::Examples, 12),
@@ -23,6 +23,7 @@ const PAGES: [(&str, Folder, usize); 13] = [
     ("docs/geometry.md", Folder::Examples, 1),
     ("docs/figures.md", Folder::Examples, 12),
     ("docs/motion.md", Folder::Examples, 20),
+    ("docs/diagram.md", Folder::Examples, 4),
     ("docs/security.md", Folder::Examples, 1),
     ("scenes/README.md", Folder::Repository, 1),
 ];

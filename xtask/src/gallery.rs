@@ -15,13 +15,14 @@ use ugtests::scenes;
 use crate::programs;
 
 /// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 6] = [
+const PAGES: [(&str, [u32; 2]); 7] = [
     (README, [640, 480]),
     ("docs/gallery.md", [640, 480]),
     ("docs/start.md", [1280, 960]),
     ("docs/motion.md", [640, 480]),
     ("docs/teaching.md", [640, 480]),
     ("docs/figures.md", [640, 480]),
+    ("docs/diagram.md", [640, 640]),
 ];
 
 /// The page of which only the film is drawn: its pictures are those of the gallery.
