@@ -24,6 +24,7 @@ const PAGES: [(&str, Folder, usize); 14] = [
     ("docs/geometry.md", Folder::Examples, 1),
     ("docs/figures.md", Folder::Examples, 12),
     ("docs/motion.md", Folder::Examples, 20),
+    ("docs/diagram.md", Folder::Examples, 4),
     ("docs/security.md", Folder::Examples, 1),
     ("scenes/README.md", Folder::Repository, 1),
 ];

@@ -30,7 +30,8 @@ fn printed(folder: &Path, program: &str, option: &str) -> String {
 fn short_help_is_one_screenful() {
     let folder = programs::folder();
     for manual in manuals!(
-        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm,
+        ugdiagram
     ) {
         for part in manual.commands.iter().chain([&manual]) {
             let name = &part.name;
@@ -59,7 +60,8 @@ fn short_help_is_one_screenful() {
 fn help_has_everything_as_documented() {
     let folder = programs::folder();
     for manual in manuals!(
-        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm,
+        ugdiagram
     ) {
         for part in manual.commands.iter().chain([&manual]) {
             let help = printed(folder, &part.name, "--help");
@@ -103,7 +105,8 @@ fn help_has_everything_as_documented() {
 fn names_in_help_are_accepted() {
     let folder = programs::folder();
     for manual in manuals!(
-        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm,
+        ugdiagram
     ) {
         for option in manual.options() {
             for name in option
@@ -133,8 +136,9 @@ fn names_in_help_are_accepted() {
 /// help has it, or else that has it at all.
 #[test]
 fn remedies_know_the_options_of_all_programs() {
-    let manuals =
-        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet);
+    let manuals = manuals!(
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugdiagram
+    );
     let mut owners: BTreeMap<String, usize> = BTreeMap::new();
     for is_in_short_help in [true, false] {
         for (row, manual) in manuals.iter().enumerate() {
@@ -184,7 +188,8 @@ fn examples_in_help_work() {
     ]);
     pictures.run(&pictures.commands[0], folder.path(), programs).unwrap();
     for manual in manuals!(
-        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm
+        uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm,
+        ugdiagram
     ) {
         let page = Page::of_commands("--help", &manual.examples);
         assert!(page.commands.len() >= 2, "{}", manual.name);

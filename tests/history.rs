@@ -247,6 +247,7 @@ fn manuals() -> Vec<Manual> {
         manual::<ugparse::Args>(),
         manual::<ugsheet::Args>(),
         manual::<ugfilm::Args>(),
+        manual::<ugdiagram::Args>(),
     ];
     assert_eq!(programs.len(), PROGRAMS.len());
     programs

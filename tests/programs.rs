@@ -6,6 +6,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let called = std::env::args_os().next().unwrap_or_default();
     match Path::new(&called).file_name().and_then(|name| name.to_str()) {
+        Some("ugdiagram") => ugpipe::main::<ugdiagram::Args>(ugdiagram::draw),
         Some("ugdoppler") => ugdoppler::main(),
         Some("ugfilm") => ugpipe::main::<ugfilm::Args>(ugfilm::run),
         Some("uglorentz") => uglorentz::main(),

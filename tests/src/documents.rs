@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use crate::scenes;
 
 /// First words of the commands that a reader types in the folder of a page.
-const PROGRAMS: [&str; 11] = [
+const PROGRAMS: [&str; 12] = [
     "uglorentz ",
     "ugdoppler ",
     "ugrainbow ",
@@ -19,6 +19,7 @@ const PROGRAMS: [&str; 11] = [
     "ugmesh ",
     "ugparse ",
     "ugfilm ",
+    "ugdiagram ",
     "sed ",
     "for ",
 ];
@@ -185,7 +186,7 @@ fn copy_scenes(folder: &Path) {
 }
 
 /// Programs that draw pictures.
-const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
+const RENDERERS: [&str; 5] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm ", "ugdiagram "];
 
 /// The command with smaller pictures and shorter films, for tests. Pictures with text keep their
 /// size in pixels, so that it fits, and so do those of `-crop`, which names pixels.
@@ -193,7 +194,9 @@ const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 pub fn shrunk(command: &str) -> String {
     let coarse = coarse(command);
     let keeps_size = coarse != command
-        || ["-lg", "-cap", "-crop", "-map"].iter().any(|option| command.contains(option));
+        || ["ugdiagram ", "-lg", "-cap", "-crop", "-map"]
+            .iter()
+            .any(|option| command.contains(option));
     shortened(&if keeps_size { coarse } else { resized(&coarse, [640, 480], 0.125) })
 }
 

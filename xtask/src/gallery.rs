@@ -23,6 +23,7 @@ const PAGES: [(&str, [u32; 2]); 7] = [
     ("docs/teaching.md", [640, 480]),
     ("docs/concepts.md", [640, 300]),
     ("docs/figures.md", [640, 480]),
+    ("docs/diagram.md", [640, 640]),
 ];
 
 /// The page of which only the film is drawn: its pictures are those of the gallery.

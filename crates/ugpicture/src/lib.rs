@@ -66,7 +66,9 @@ mod shared_edges;
 mod spots;
 mod units;
 
-pub use annotations::{Annotated, FindItems, FoundItems, Layout, Scale, Subject, VisibleWires};
+pub use annotations::{
+    Annotated, FindItems, FoundItems, Layout, Scale, Style, Subject, VisibleWires,
+};
 pub use background::{Backdrop, Background};
 pub use canvas::{Canvas, Drawn, DrawnContent};
 pub use channel::{Channel, push_channels};

@@ -7,7 +7,8 @@
 use crate::shell::shell_word;
 
 /// The programs of the family: all that a recorded pipe may run.
-pub const PROGRAMS: [&str; 9] = [
+pub const PROGRAMS: [&str; 10] = [
+    "ugdiagram",
     "ugdoppler",
     "ugfilm",
     "uglorentz",

@@ -22,7 +22,8 @@
 //! - [`parse`] reads scenes from text, [`mesh`] and [`meshfile`] from OBJ, PLY, STL, OFF and glTF;
 //!   [`scene`] builds them from arrays;
 //! - [`lorentz`], [`doppler`] and [`rainbow`] draw them, [`photon`] traces rays, [`warp`] draws
-//!   panoramas, [`film`] the frames of a film, [`sheet`] several pictures on one;
+//!   panoramas, [`film`] the frames of a film, [`sheet`] several pictures on one, [`diagram`]
+//!   spacetime diagrams;
 //! - [`physics`] has the formulas, [`sky`] and [`skybox`] skies, [`light`] lamps and colours,
 //!   [`trace`] what rays meet, [`picture`] and [`image`] what pictures have in common and their
 //!   files, [`pipe`] progress.
@@ -32,6 +33,7 @@
 //! match errors and notes with a wildcard.
 
 pub use glam;
+pub use ugdiagram as diagram;
 pub use ugdoppler as doppler;
 pub use ugfilm as film;
 pub use ugimage as image;

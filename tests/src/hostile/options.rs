@@ -7,8 +7,9 @@ use ugtesting::Random;
 
 use super::template::{Kind, name, number, velocity};
 
-static MANUALS: LazyLock<[Manual; 9]> = LazyLock::new(|| {
+static MANUALS: LazyLock<[Manual; 10]> = LazyLock::new(|| {
     [
+        manual::<ugdiagram::Args>(),
         manual::<ugdoppler::Args>(),
         manual::<ugfilm::Args>(),
         manual::<uglorentz::Args>(),

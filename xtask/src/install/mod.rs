@@ -44,7 +44,7 @@ pub struct Args {
 }
 
 /// The manuals of all programs.
-fn manuals() -> [Manual; 10] {
+fn manuals() -> [Manual; 11] {
     [
         manual::<uglorentz::Args>(),
         manual::<ugdoppler::Args>(),
@@ -55,6 +55,7 @@ fn manuals() -> [Manual; 10] {
         manual::<ugparse::Args>(),
         manual::<ugsheet::Args>(),
         manual::<ugfilm::Args>(),
+        manual::<ugdiagram::Args>(),
         manual::<ugconformance::Args>(),
     ]
 }

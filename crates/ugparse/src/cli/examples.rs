@@ -11,16 +11,15 @@ macro_rules! files {
 
 /// The scenes of the repository, with the pictures they name, a mesh and a list of stars: names of
 /// files and their bytes.
-pub const EXAMPLE_FILES: [(&str, &[u8]); 56] = files![
+pub const EXAMPLE_FILES: [(&str, &[u8]); 58] = files![
     "house.ug" "houses.ug" "ship.ug" "street.ug" "teapot.ug" "cubes.ug" "sphere.ug" "directions.ug"
     "lattice.ug" "grid.ug" "tunnel.ug" "die.ug" "poles.ug" "lamps.ug" "clocks.ug" "wheels.ug"
     "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
     "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
     "room.ug" "water.ug" "marbles.ug" "rainbow.ug" "halves.ug" "avenue.ug" "town.ug" "saturn.ug"
     "stones.ug" "tram.ug" "jet.ug" "snapshot.ug" "rolling.ug" "city.ug" "train.ug" "doors.ug"
-    "string.ug" "facade.png"
-    "facade-yellow.png" "facade-brown.png" "facade-grey.png" "paving.png" "crate.gltf" "globe.obj"
-    "stars.csv"
+    "string.ug" "barn.ug" "bell.ug" "facade.png" "facade-yellow.png" "facade-brown.png"
+    "facade-grey.png" "paving.png" "crate.gltf" "globe.obj" "stars.csv"
 ];
 
 /// Arguments of `ugparse example`.

@@ -34,7 +34,7 @@ pub use composite::Annotations;
 pub use map::Scale;
 use motion::MotionSummary;
 use seen::{SeenScene, velocities};
-use style::Style;
+pub use style::Style;
 
 /// The subject of a picture's annotations. `E`: the error of a renderer.
 pub struct Annotated<'a, E> {

@@ -13,33 +13,40 @@ use super::MotionError;
 use super::placement::Placement;
 use crate::{BodyId, Color, ColorId, ColorTable, RelativeMotion, Scene, UniqueNames};
 
-/// Makes the tables of colours on inertial bodies count from the event of the eye. `motions`: of
-/// each body. `frames`: see [`Placement::frames`].
-///
-/// # Errors
-/// [`MotionError::PartialTimes`].
-pub(super) fn count_from_eye(
-    scene: &mut Scene,
+/// For each inertial body, its own time at the event of the eye; 0 for others. `motions`: of each
+/// body. `frames`: see [`Placement::frames`].
+pub(super) fn times_at_eye(
     (motions, frames): (&[RelativeMotion], &[InertialFrame]),
     placement: &Placement<'_>,
-) -> Result<(), MotionError> {
-    if scene.color_tables.is_empty() {
-        return Ok(());
-    }
-    let options = placement.options;
-    if !options.geometry.contraction {
-        return Err(MotionError::PartialTimes);
-    }
+) -> Vec<f64> {
     let time = |(motion, frame): (&RelativeMotion, &InertialFrame)| {
         if motion.world_line().is_some() {
             return 0.0;
         }
         // With `-in`, a body is displaced in its rest frame in space alone, so its clock still
         // shows 0 at time 0 of the scene at the origin.
-        let zero = if options.in_place { Event::ORIGIN } else { frame.start() };
+        let zero = if placement.options.in_place { Event::ORIGIN } else { frame.start() };
         Lorentz::boost(motion.in_scene()).inverse().apply(placement.eye_event() - zero).t
     };
-    let times: Vec<f64> = motions.iter().zip(frames).map(time).collect();
+    motions.iter().zip(frames).map(time).collect()
+}
+
+/// Makes the tables of colours on inertial bodies count from the event of the eye. `times`: see
+/// [`times_at_eye`].
+///
+/// # Errors
+/// [`MotionError::PartialTimes`].
+pub(super) fn count_from_eye(
+    scene: &mut Scene,
+    times: &[f64],
+    placement: &Placement<'_>,
+) -> Result<(), MotionError> {
+    if scene.color_tables.is_empty() {
+        return Ok(());
+    }
+    if !placement.options.geometry.contraction {
+        return Err(MotionError::PartialTimes);
+    }
     let mut recount = Recount { times, known: FxHashMap::default(), names: None };
     for row in 0..scene.faces.len() {
         let face = &scene.faces[row];
@@ -59,15 +66,15 @@ pub(super) fn count_from_eye(
 }
 
 /// Adds the tables of several bodies.
-struct Recount {
+struct Recount<'t> {
     /// For each body, its own time at the event of the eye; 0 on world lines.
-    times: Vec<f64>,
+    times: &'t [f64],
     /// By colour and the bits of that time.
     known: FxHashMap<(ColorId, u64), ColorId>,
     names: Option<UniqueNames>,
 }
 
-impl Recount {
+impl Recount<'_> {
     fn color(
         &mut self,
         scene: &mut Scene,

@@ -159,6 +159,10 @@ pub struct PlacedBodies {
     /// For each body, what has to be added to its rest coordinates, in the axes of
     /// [`RelativeMotion::turned`].
     pub shifts: Vec<DVec3>,
+    /// The event of the eye when the picture is taken, in the frame of the scene.
+    pub eye_event: Event,
+    /// For each inertial body, its own time at the event of the eye; 0 for others.
+    pub own_times: Vec<f64>,
 }
 
 impl MotionOptions {
@@ -229,7 +233,8 @@ impl PlacedBodies {
             || !scene.color_tables.is_empty();
         let shifts = placement.shifts(&motions, &frames);
         placement::shift_lights(scene, &motions, &shifts);
-        clocks::count_from_eye(scene, (&motions, &frames), &placement)?;
+        let own_times = clocks::times_at_eye((&motions, &frames), &placement);
+        clocks::count_from_eye(scene, &own_times, &placement)?;
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera, of_camera).map_err(MotionError::Camera)?;
@@ -243,7 +248,8 @@ impl PlacedBodies {
                 SeenGeometry { eye, time, camera_velocity, contraction, flight_time, is_whole };
             scene.stage.geometry = GeometryStage::AsSeen(seen);
         }
-        Ok(Self { eye, default_camera, motions, bodies, shifts })
+        let eye_event = placement.eye_event();
+        Ok(Self { eye, default_camera, motions, bodies, shifts, eye_event, own_times })
     }
 
     /// The rest position p' of each vertex, relative to the eye, in the axes of
