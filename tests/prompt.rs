@@ -459,12 +459,13 @@ fn textures_are_drawn_alike() {
         let output = shell.output(&cut);
         assert!(output.status.success() && !output.stdout.is_empty(), "{cut}");
     }
-    // Whole faces are drawn as those that were cut, but for rounding at a few edges.
+    // Whole faces are drawn as those that were cut, whose colours between corners are interpolated
+    // over pieces.
     let cut = format!("{moved} -se .1 | ugdoppler -qt | ugrainbow -qt {view} > cut.png");
     shell.run(&cut);
     shell.run(&format!("{moved} | ugdoppler -qt | ugrainbow -qt {view} > whole.png"));
     let (cut, whole) = (pixels("cut.png"), pixels("whole.png"));
-    let n_other = cut.iter().zip(&whole).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    let n_other = cut.iter().zip(&whole).filter(|(a, b)| a.abs_diff(**b) > 8).count();
     assert!(n_other <= cut.len() / 1000, "{n_other} of {}", cut.len());
     check(
         &shell,

@@ -13,8 +13,8 @@ use crate::near_lamps::NearLamps;
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
-    Config, Error, Pieces, Report, adaptive, attributes, clocks, cull,
-    distant_bodies, junctions, remaining_errors, rounds, tables, uniform, viewpoint,
+    Config, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies, junctions,
+    remaining_errors, rounds, tables, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -73,7 +73,9 @@ pub fn apply_with(
     let mut mesh = RefinedMesh::new(motions, points);
     let mut n_open_junctions = 0;
     match config.pieces {
-        Pieces::UpTo(_) | Pieces::UpToPixels(_) => mesh.junctions = junctions::find(&scene, &mesh.points, motions),
+        Pieces::UpTo(_) | Pieces::UpToPixels(_) => {
+            mesh.junctions = junctions::find(&scene, &mesh.points, motions)
+        }
         // Rays (`ugrainbow -xc`) meet the faces at rest.
         Pieces::PerEdge(1) => {}
         Pieces::PerEdge(_) => {
@@ -128,6 +130,7 @@ pub fn apply_with(
         n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
         n_open_junctions,
+        is_whole,
         are_rounds_cut,
         is_full: outcome.is_full,
         max_pieces,
@@ -145,11 +148,13 @@ fn check(config: &Config) -> Result<(), Error> {
             Err(Error::NoPixelBound { pixels })
         }
         Pieces::UpTo(_) | Pieces::UpToPixels(_)
-            if config.color_error.is_nan() || config.color_error <= 0.0 => {
+            if config.color_error.is_nan() || config.color_error <= 0.0 =>
+        {
             Err(Error::NoColorBound { error: config.color_error })
         }
         Pieces::UpTo(_) | Pieces::UpToPixels(_)
-            if config.light_error.is_nan() || config.light_error <= 0.0 => {
+            if config.light_error.is_nan() || config.light_error <= 0.0 =>
+        {
             Err(Error::NoLightBound { error: config.light_error })
         }
         Pieces::PerEdge(0) => Err(Error::NoPieces),
