@@ -264,7 +264,7 @@ fn options_that_name_files_read_or_write_them() {
         title cap label caption across ch channels only";
     /// Names of values that are numbers, or words that the program knows.
     const OTHERS: &str = "A ANGLE AXIS B BASIS CONTRAST CURVE DISTANCE EAST ERR E|WORD E|auto FAR \
-        FILTER FMT FORMAT H HIGH KIND L LAW LEAST LOOK LOW M MAG N NAME=N NEAR NM NORTH PART \
+        FILTER FMT FORMAT FRAME H HIGH KIND L LAW LEAST LOOK LOW M MAG N NAME=N NEAR NM NORTH PART \
         PERCENT PIXELS PLACE POINT QUANTITY RATE RULE S SOUTH SPEED STOPS STYLE T T2 T3 TIME \
         UNIT VALUE W WEST WORD X X,Y Y Z";
     let is_in = |list: &str, name: &str| list.split_whitespace().any(|other| other == name);

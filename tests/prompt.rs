@@ -459,13 +459,14 @@ fn textures_are_drawn_alike() {
         let output = shell.output(&cut);
         assert!(output.status.success() && !output.stdout.is_empty(), "{cut}");
     }
-    // Whole faces are drawn as those that were cut, but for rounding at a few edges.
+    // Whole faces are drawn as those that were cut, whose colours between corners are interpolated
+    // over pieces.
     let cut = format!("{moved} -se .1 | ugdoppler -qt | ugrainbow -qt {view} > cut.png");
     shell.run(&cut);
     shell.run(&format!("{moved} | ugdoppler -qt | ugrainbow -qt {view} > whole.png"));
     let (cut, whole) = (pixels("cut.png"), pixels("whole.png"));
     let is_other =
-        |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1);
+        |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 8);
     let n_other = cut.iter().zip(&whole).filter(is_other).count();
     assert!(n_other <= cut.len() / 1000, "{n_other} of {}", cut.len());
     check(

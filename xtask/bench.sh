@@ -9,6 +9,7 @@
 #   photon        the ray tracer: motion and many bodies, relative to rest
 #   warp          panoramas, relative to the filter v360 of ffmpeg, which must be installed
 #   film          films, relative to their pipes run by a shell
+#   scenes        README's street with its textures, as a film; drafts of two scenes, relative to full size
 #   world-lines   bodies that accelerate and spin, relative to inertial ones, by the pipe and by rays
 #
 # --against: the programs of another commit, measured in turn: `target/release` of its worktree.
@@ -121,6 +122,20 @@ world_lines() {
         done
     done
 }
+scenes() {
+    scenes="$here/../scenes"
+    film="ugfilm -qt -nt 1 --frames 8 -aa 1 -ti 0..1 -ep 0 20 3 -va 110 -ex -1.6 -sz 640 360 -dt y4m"
+    table '8 frames of 640 × 360 of `town.ug`, one thread'
+    for speed in 0 .5 .9; do row "\`-cv 0 $speed 0\`" "$film -cv 0 $speed 0 '$scenes/town.ug'"; done
+    row '`-cv 0 .9 0 -rays`, with shadows' "$film -rays -cv 0 .9 0 '$scenes/town.ug'"
+    for scene in street lattice; do
+        table "\`$scene.ug\` at 0.9c, the pipe"
+        for size in '640 480' '160 120 -se .15px -sc 1'; do
+            row "\`-sz $size\`" "uglorentz -qt -cv 0 .9 0 -va 120 -sz $size '$scenes/$scene.ug' |
+                ugdoppler -qt | ugrainbow -qt -aa 1 -va 120 -sz ${size%% -*}"
+        done
+    done
+}
 warp() {
     # A fractal with noise, which has detail at every size.
     setup "[ -e panorama.png ] || ffmpeg -nostdin -v error -f lavfi -i mandelbrot=size=2048x1024:rate=1 \
@@ -149,5 +164,6 @@ case $name in
     pipe | raster | rays | photon | world-lines) for n in $triangles; do "${name/-/_}" "$n"; done ;;
     warp) warp ;;
     film) film 1; film 4 ;;
+    scenes) scenes ;;
     *) echo "bench: there is no benchmark $name" >&2; exit 2 ;;
 esac

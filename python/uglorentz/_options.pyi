@@ -53,7 +53,7 @@ class Lorentz(TypedDict, total=False):
     ahead: bool | None
     """True. View ahead of a moving camera: the picture shows at every speed what it shows at rest"""
     error: float | str | None
-    """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
+    """ERR. Largest error of edges: milliradians at the eye, or pixels, .15px [default: 0.1]"""
     se: float | str | None
     """The same as error."""
     color_error: float | str | None
@@ -111,7 +111,7 @@ class Lorentz(TypedDict, total=False):
     og: bool | None
     """The same as orthographic."""
     size: Vector | None
-    """W H. Size of the picture in pixels, of which the aspect ratio is used [default: 1024 768]"""
+    """W H. Size of the picture in pixels, of which mostly the aspect ratio is used [default: 1024 768]"""
     sz: Vector | None
     """The same as size."""
 
@@ -801,7 +801,7 @@ class Film(Reading, total=False):
     ahead: bool | None
     """True. View ahead of a moving camera: the picture shows at every speed what it shows at rest"""
     error: Vector | float | str | None
-    """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
+    """ERR. Largest error of edges: milliradians at the eye, or pixels, .15px [default: 0.1]"""
     se: Vector | float | str | None
     """The same as error."""
     color_error: Vector | float | str | None

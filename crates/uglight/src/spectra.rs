@@ -253,3 +253,35 @@ impl Spectra {
 fn color_row(color: Option<ColorId>) -> usize {
     color.map_or(0, |color| color.index() + 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Frames of a film whose speeds differ a little share the lattice, and its light does not
+    /// depend on the range of its tables.
+    #[test]
+    fn frames_share_the_light_of_texels() {
+        let grid = |reach: f64| {
+            let wide = shared_reach(reach);
+            assert!(wide >= reach);
+            DopplerGrid::new(-wide..=wide)
+        };
+        let shared = |reach: f64| Lattice::shared(InfraredRule::Measured, grid(reach));
+        let slow = shared(1.1);
+        assert!(Arc::ptr_eq(&slow, &shared(1.9)));
+        let fast = shared(3.0);
+        assert!(!Arc::ptr_eq(&slow, &fast));
+        assert!([0.0, 0.3, 70.0, 500.0].map(grid).into_iter().all(|grid| grid.n_points() > 0));
+        for at in [7, 4000, N_CORNERS - 1] {
+            for ln in [-0.987, 0.0, 0.123, 1.045] {
+                let light = |lattice: &Lattice| {
+                    let place = lattice.grid.place(ln);
+                    lattice.corner(at).xyz(&lattice.grid, (ln, &place))
+                };
+                let [a, b] = [light(&slow), light(&fast)];
+                assert!((a - b).length() <= 1e-12 * a.length() && a.y > 0.0, "{at} {ln}: {a} {b}");
+            }
+        }
+    }
+}

@@ -140,6 +140,7 @@ pub fn apply_with(
         n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
         n_open_junctions,
+        is_whole,
         are_rounds_cut,
         momentary_frame: carrier.clone().map(|name| (name, config.time)),
         is_full: outcome.is_full,

@@ -31,7 +31,7 @@ pub struct Args {
     #[command(flatten)]
     motion: MotionArgs,
 
-    /// Largest error of edges, in milliradians seen from the eye, or in pixels (.15px) [default: 0.1]
+    /// Largest error of edges: milliradians at the eye, or pixels, .15px [default: 0.1]
     ///
     /// Edges are subdivided until they deviate by at most ERR. Pixels are those of -sz and the view:
     /// small pictures have fewer pieces, and edges shorter than a pixel are not cut. Subdivision stops at 4000000 pieces
@@ -150,6 +150,9 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     steps.step("reading", 0);
     let parsed =
         ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
+    // Downstream, faces of a texture that no file names are drawn without it.
+    let has_names = pipe::unnamed_textures(&parsed.scene).is_none();
+    let config = Config { is_for_rays: config.is_for_rays && has_names, ..config };
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);

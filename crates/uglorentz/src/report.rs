@@ -20,7 +20,9 @@ pub struct Report {
     pub n_too_deep: usize,
     /// Edges with vertices of other faces on them (T-junctions), cut into equal pieces.
     pub n_open_junctions: usize,
-    /// Round faces of bodies on world lines became polygons of fixed accuracy.
+    /// Faces that would be subdivided are whole, for rays ([`crate::Config::is_for_rays`]).
+    pub is_whole: bool,
+    /// Round faces of bodies on world lines became polygons.
     pub are_rounds_cut: bool,
     /// The name of the body whose frame is that of a moment, since it accelerates or turns, and that
     /// moment ([`crate::MeasuredFrame::Body`]).

@@ -8,6 +8,12 @@ use ugscene::{
 
 use crate::{Config, Error, Pieces, viewpoint};
 
+/// Radius, in pixels, below which uneven shading of a shape on a world line is not visible.
+const SMALL_PIXELS: f64 = 8.0;
+
+/// The greatest sagitta of such a shape, relative to its radius.
+const COARSEST_OF_SMALL: f64 = 0.1;
+
 /// Cuts round faces so that no polygon is seen farther from the surface than the bound on errors of
 /// shape; those of bodies on world lines not finer than a fixed part of their radius. Without
 /// subdivision only the latter are cut, since rays meet the others as they are.
@@ -22,12 +28,18 @@ pub(crate) fn cut(scene: &mut Scene, config: &Config) -> Result<(), Error> {
         PlacedBodies::move_to_camera_frame(&mut trial, &config.motion(), &camera, config.size)?;
     let rest = placed.rest_positions(&trial);
     let error = viewpoint::error(&trial, config)?;
+    // Of an invalid view no shape is small; renderers refuse it.
+    let pixel = viewpoint::pixel(&trial, config).unwrap_or(0.0);
     let sagitta = |row: usize, _: &Face, _: &RoundShape| {
         let face = &trial.faces[row];
         let round = trial.round_shape(face, |vertex| rest[vertex.index()])?;
         let motion = &placed.motions[face.body.index()];
         Some(match motion.world_line() {
-            Some(_) => seen_sagitta_on_world_line(&round, motion, error, COARSEST_SAGITTA),
+            Some(_) => {
+                let sagitta = seen_sagitta_on_world_line(&round, motion, error, COARSEST_OF_SMALL);
+                let is_small = error <= SMALL_PIXELS * pixel * sagitta;
+                if is_small { sagitta } else { sagitta.min(COARSEST_SAGITTA) }
+            }
             None if is_whole => return None,
             None => {
                 seen_sagitta(&round, DVec3::ZERO, error * least_doppler(&round, motion).min(1.0))

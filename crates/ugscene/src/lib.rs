@@ -76,8 +76,8 @@ pub use requirements::{
     require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
 pub use rounds::{
-    COARSEST_SAGITTA, FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest,
-    cut_rounds_on_world_lines, seen_sagitta, seen_sagitta_on_world_line,
+    COARSEST_SAGITTA, FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest, seen_sagitta,
+    seen_sagitta_on_world_line,
 };
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};

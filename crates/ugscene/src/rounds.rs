@@ -147,19 +147,6 @@ pub fn cut_rounds_at_rest(scene: &mut Scene, eye: Option<DVec3>) -> Result<(), T
     })
 }
 
-/// Cuts the round faces of bodies on world lines.
-///
-/// # Errors
-/// See [`cut_rounds`].
-pub fn cut_rounds_on_world_lines(scene: &mut Scene) -> Result<(), TooManyPolygons> {
-    if !scene.has_rounds_on_world_lines() {
-        return Ok(());
-    }
-    let on_line: Vec<bool> =
-        scene.bodies.ids().map(|body| scene.bodies.is_on_world_line(body)).collect();
-    cut_rounds(scene, |_, face, _| on_line[face.body.index()].then_some(FINE_SAGITTA))
-}
-
 /// Segments of a full circle, a multiple of 4, so that the extreme points are corners.
 fn n_segments(shape: FaceShape, sagitta: f64) -> usize {
     // A quadrilateral at the equator of a sphere is cos² of half a segment from its centre.

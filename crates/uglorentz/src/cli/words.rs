@@ -157,6 +157,9 @@ impl Report {
         let errors = self.remaining_errors.as_ref().map(|errors| format!("errors left: {errors}"));
         let culled = (self.n_culled > 0)
             .then(|| format!("removed {} faces outside the view", self.n_culled));
-        [added].into_iter().chain(culled).chain(errors).collect()
+        let whole = self.is_whole.then(|| {
+            "faces with curved edges are whole: a ray is drawn for each sample".to_string()
+        });
+        [added].into_iter().chain(whole).chain(culled).chain(errors).collect()
     }
 }

@@ -726,3 +726,43 @@ fn faces_for_rays_stay_whole() {
         assert_eq!(ugscene::refuse_whole_faces(&scene).is_err(), is_whole);
     }
 }
+
+/// With a bound in pixels, small pictures have fewer pieces, no edge is off by more, and the
+/// pictures of a larger size are as exact as with the same angle.
+#[test]
+fn pieces_follow_pixels() {
+    let camera = "cam -ep 0 0 0 -vc 0 9 0 -va 90;";
+    let text = format!("v a -9 4 -9; v b 9 4 -9; v c 9 4 9; v d -9 4 9; f (a b c d); {camera}");
+    let mut counts = Vec::new();
+    for size in [[80, 60], [320, 240], [1280, 960], [5120, 3840]] {
+        let pieces = Pieces::UpToPixels(0.15);
+        let color_error = f64::INFINITY;
+        let exact = Config { size, color_error, measure: true, ..moving(DVec3::X * 0.9) };
+        let found = run(&text, &Config { pieces, ..exact.clone() });
+        let angle = found.report.remaining_errors.unwrap().angle.error;
+        let pixel = 2.0 / f64::from(size[0]);
+        assert!(angle <= 0.15 * pixel, "{size:?}: {angle}");
+        let same = run(&text, &Config { pieces: Pieces::UpTo(0.15 * pixel), ..exact });
+        assert!(found.scene.faces.len() <= same.scene.faces.len());
+        counts.push(found.scene.faces.len());
+    }
+    assert!(counts.windows(2).all(|pair| 2 * pair[0] < pair[1]), "{counts:?}");
+    // However near the colours of a bound are to each other, pieces are as large as pixels.
+    let exact = Config { size: [80, 60], color_error: 1e-6, ..moving(DVec3::X * 0.9) };
+    let found = run(&text, &Config { pieces: Pieces::UpToPixels(0.15), ..exact });
+    assert!(found.scene.faces.len() < 100 * 80 * 60, "{}", found.scene.faces.len());
+}
+
+/// Round faces on world lines are as fine as the picture shows them.
+#[test]
+fn small_spheres_on_world_lines_have_few_pieces() {
+    let spheres: String =
+        (0..200).map(|at| format!("sphere {} 0 0 .02 <m>;", 0.01 * f64::from(at))).collect();
+    let camera = "cam -ep 0 -12 3 -vc 0 0 0;";
+    let text = format!("motion m -spin 0 0 .1; {spheres} {camera}");
+    let found = run(&text, &Config::default());
+    assert!(found.scene.faces.len() < 200 * 150, "{}", found.scene.faces.len());
+    // A near one is as fine as before.
+    let near = "motion m -spin 0 0 .1; sphere 0 0 0 2 <m>; cam -ep 0 -2.2 0 -vc 0 0 0;";
+    assert_eq!(run(near, &Config::default()).scene.faces.len(), 20_000);
+}

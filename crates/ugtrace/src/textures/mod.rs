@@ -292,3 +292,36 @@ fn unreadable(
     let file = texture.image.file.clone().unwrap_or_else(|| color.clone());
     TextureError { file, color, reason, needed_memory }
 }
+
+#[cfg(test)]
+mod tests {
+    use ugscene::TextureImage;
+
+    use super::*;
+
+    /// Frames of a film share the texels of a picture, which are dropped after its bytes are.
+    #[test]
+    fn texels_are_kept_while_their_picture_is_used() {
+        let scene = Scene::default();
+        let picture = |red: f32| -> Arc<[u8]> {
+            let light = [red, 0.0, 0.0].into_iter().flat_map(f32::to_le_bytes);
+            b"PF\n1 1\n-1.0\n".iter().copied().chain(light).collect()
+        };
+        let texture = |bytes: &Arc<[u8]>| {
+            let image = TextureImage { bytes: Arc::clone(bytes), ..TextureImage::default() };
+            Texture::new(ColorId::from_index(0), image)
+        };
+        let of = |texture: &Texture| levels(&scene, texture, 1 << 20).unwrap();
+        let (first, other) = (picture(0.5), picture(0.25));
+        let found = of(&texture(&first));
+        assert!(Arc::ptr_eq(&found, &of(&texture(&first))));
+        assert!(!Arc::ptr_eq(&found, &of(&texture(&other))));
+        let blended = Texture { alpha: AlphaMode::Blend, ..texture(&first) };
+        assert!(!Arc::ptr_eq(&found, &of(&blended)));
+        assert!(!Arc::ptr_eq(&found, &of(&texture(&picture(0.5)))), "equal, but another file");
+        drop(blended);
+        drop(first);
+        kept().retain(|kept| kept.bytes.strong_count() > 0);
+        assert_eq!(Arc::strong_count(&found), 1);
+    }
+}
