@@ -152,13 +152,8 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
         findings.extend(rgb_as_hsv::warning(text, &document.scopes));
     }
     let mut scene = Scene { stage, sky, ..Scene::default() };
-    let links = resolve::resolve(
-        (text, &source.images),
-        &mut document.scopes,
-        &mut scene,
-        &options.limits,
-        &mut findings,
-    );
+    let links =
+        resolve::resolve(source, &mut document.scopes, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 
     let (scene, passed_on, origins) =

@@ -487,7 +487,7 @@ fn read_alone<'t>(
 pub(crate) fn names_in(text: &[u8], span: Span) -> Vec<(NameKind, Span)> {
     let mut names = Vec::new();
     if let Ok((body, keyword)) = word(&text[span.start as usize..]) {
-        drop(read_alone(text, body, keyword, &mut names));
+        let _ = read_alone(text, body, keyword, &mut names);
     }
     names
 }

@@ -71,20 +71,26 @@ impl<'s> Tables<'s, '_> {
         self.rows(
             stage.map_or(&[], std::slice::from_ref),
             |_| Item::Stage,
-            "",
             stage_statement::write,
         )?;
         self.statements(scene.sky.as_slice(), |_| Item::Stage)?;
         let passed_on = &self.passed_on.statements;
-        self.rows(passed_on, Item::PassedOn, "", |text, out| out.text(text))?;
-        self.rows(&scene.colors, Item::Color, ";", |color, out| {
+        self.rows(passed_on, Item::PassedOn, |text, out| out.text(text))?;
+        self.rows(&scene.colors, Item::Color, |color, out| {
             match scene.table_of(ColorId::from_index(out.row as usize)) {
                 Some(table) => write_times(table, out),
                 None => write_color(color, out),
             }
+            out.text(";");
         })?;
         self.statements(&scene.mixes, Item::Mix)?;
-        self.statements(&scene.textures, Item::Texture)?;
+        self.rows(&scene.textures, Item::Texture, |texture, out| {
+            // A picture inside a mesh from standard input has no name.
+            if texture.image.file.is_some() {
+                texture.write(out);
+                out.text(";");
+            }
+        })?;
         self.statements(&scene.emissions, Item::Emission)?;
         self.statements(&scene.surfaces, Item::Surface)?;
         let mut along = Along::default();
@@ -95,7 +101,10 @@ impl<'s> Tables<'s, '_> {
                 along.entry(path.address()).or_insert(body);
             }
         }
-        self.rows(self.motions, Item::Motion, ";", |&body, out| write_motion(body, &along, out))?;
+        self.rows(self.motions, Item::Motion, |&body, out| {
+            write_motion(body, &along, out);
+            out.text(";");
+        })?;
         self.statements(&scene.vertices, Item::Vertex)?;
         self.statements(&scene.faces, Item::Face)?;
         self.statements(&scene.wires, Item::Wire)?;
@@ -114,21 +123,23 @@ impl<'s> Tables<'s, '_> {
         rows: &'s [impl WriteRow + Sync],
         item: fn(u32) -> Item,
     ) -> io::Result<()> {
-        self.rows(rows, item, ";", WriteRow::write)
+        self.rows(rows, item, |row, out| {
+            row.write(out);
+            out.text(";");
+        })
     }
 
-    /// Writes one line per row, which `end` closes, in blocks on all threads.
+    /// Writes one line per row, in blocks on all threads.
     fn rows<T: Sync>(
         &mut self,
         rows: &'s [T],
         item: fn(u32) -> Item,
-        end: &str,
         line: impl Fn(&'s T, &mut RowWriter<'s>) + Sync,
     ) -> io::Result<()> {
         let scene = self.scene;
         let write = |block: &Block<'s, T>, out: &mut Vec<u8>| {
             let mut writer = RowWriter::new(scene, std::mem::take(out));
-            block.write(&mut writer, item, end, &line);
+            block.write(&mut writer, item, &line);
             *out = writer.out;
         };
         let blocks: Vec<Block<'s, T>> = rows
@@ -175,33 +186,32 @@ impl<'s, T> Block<'s, T> {
         &self,
         out: &mut RowWriter<'s>,
         item: fn(u32) -> Item,
-        end: &str,
         line: impl Fn(&'s T, &mut RowWriter<'s>),
     ) {
         let mut comments = self.comments;
         for (row, idx) in self.rows.iter().zip(self.first..) {
             out.row = idx as u32;
-            let item = item(out.row);
-            // A comment of a missing row must not block the others.
-            while let Some(((at, comment), rest)) = comments.split_first()
-                && (*at < item || *at == item && !comment.trailing)
-            {
-                write_comment(&comment.text, "\n", &mut out.out);
-                comments = rest;
+            if comments.is_empty() {
+                line(row, out);
+            } else {
+                let item = item(out.row);
+                // A comment of a missing row must not block the others.
+                while let Some(((at, comment), rest)) = comments.split_first()
+                    && (*at < item || *at == item && !comment.trailing)
+                {
+                    write_comment(&comment.text, "\n", &mut out.out);
+                    comments = rest;
+                }
+                line(row, out);
+                while let Some(((at, comment), rest)) = comments.split_first()
+                    && *at == item
+                {
+                    out.text(" ");
+                    write_comment(&comment.text, "", &mut out.out);
+                    comments = rest;
+                }
             }
-            let before = out.out.len();
-            line(row, out);
-            if out.out.len() > before {
-                out.text(end);
-            }
-            while let Some(((at, comment), rest)) = comments.split_first()
-                && *at == item
-            {
-                out.text(" ");
-                write_comment(&comment.text, "", &mut out.out);
-                comments = rest;
-            }
-            out.text("\n");
+            out.out.push(b'\n');
         }
     }
 }

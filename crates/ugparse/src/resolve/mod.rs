@@ -14,7 +14,7 @@ use ugscene::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::options::Limits;
 use crate::scope::Scope;
-use crate::source::Images;
+use crate::source::Source;
 
 pub(crate) use degenerate::{degeneracy, face_name, is_short, remove_degenerate, short_wire};
 pub(crate) use undefined::{undefined, undefined_like};
@@ -36,7 +36,7 @@ pub(crate) struct Links {
 
 /// Resolves all names of `scopes`, and moves their colours and surfaces to `scene`.
 pub(crate) fn resolve(
-    (text, images): (&[u8], &Images),
+    Source { text, images, .. }: &Source,
     scopes: &mut [Scope<'_>],
     scene: &mut Scene,
     limits: &Limits,

@@ -119,12 +119,11 @@ pub(crate) fn write_times(table: &ColorTable, out: &mut RowWriter<'_>) {
     }
 }
 
-/// Writes `c_tex`; nothing for a picture inside a mesh from standard input, which has no name.
+/// Writes `c_tex`.
 impl WriteRow for Texture {
     fn write(&self, out: &mut RowWriter<'_>) {
-        let Some(file) = &self.image.file else { return };
         out.begin_color("c_tex", self.color);
-        out.quoted(file);
+        out.quoted(self.image.file.as_deref().unwrap_or_default());
         TEXTURE.write(self, out);
     }
 }

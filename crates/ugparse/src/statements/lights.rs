@@ -21,9 +21,9 @@ impl<'t> Grammar<'t, '_> {
     pub fn light(&mut self) -> Outcome<'t> {
         let name = self.optional_name()?;
         let intensity = self.number(Valid::not_negative("an intensity is 0 or more"))?;
-        let kind = self.light_kind()?;
+        let mut kind = self.light_kind()?;
         let color = self.optional_color()?;
-        let kind = self.beam(kind)?;
+        self.beam(&mut kind)?;
         // A lamp with a velocity of its own is at its position at time 0.
         let at = if let LightKind::Local { position, .. } = kind { position } else { DVec3::ZERO };
         let motion = self.optional_motion()?.map(|motion| self.body_with(motion, at));
@@ -48,33 +48,36 @@ impl<'t> Grammar<'t, '_> {
         })
     }
 
-    /// Adds the beam of a light, if it has one.
-    fn beam(&mut self, kind: LightKind) -> Outcome<'t, LightKind> {
+    /// Reads the beam of a light, if it has one.
+    fn beam(&mut self, kind: &mut LightKind) -> Outcome<'t> {
         let at = self.rest;
         let wrong = |rule| refuse(at, Reason::OutOfRange(rule));
-        let mut own = Beam::Even;
-        match (option_word(at).map(|(_, word)| word), kind) {
-            (Ok(b"spot"), LightKind::Ambient | LightKind::Directional(_)) => {
+        let (has_place, has_reference) = match kind {
+            LightKind::Local { reference, .. } => (true, reference.is_some()),
+            _ => (false, false),
+        };
+        match option_word(at) {
+            Ok((_, b"spot")) if !has_place => {
                 return wrong("a spot has a position and a radius, such as `l 1  0 0 5 0`");
             }
-            (Ok(b"area"), kind) if !matches!(kind, LightKind::Local { reference: Some(_), .. }) => {
+            Ok((_, b"area")) if !has_reference => {
                 return wrong(
                     "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`",
                 );
             }
-            _ => BEAMS.read_one(&mut own, self)?,
-        };
+            _ => {}
+        }
+        let mut own = Beam::Even;
+        BEAMS.read_one(&mut own, self)?;
         if !own.is_valid() {
             return wrong(
                 "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area",
             );
         }
-        Ok(match kind {
-            LightKind::Local { position, radius, reference, .. } => {
-                LightKind::Local { position, radius, reference, beam: own }
-            }
-            other => other,
-        })
+        if let LightKind::Local { beam, .. } = kind {
+            *beam = own;
+        }
+        Ok(())
     }
 }
 

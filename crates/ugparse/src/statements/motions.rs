@@ -66,23 +66,20 @@ impl<'t> Grammar<'t, '_> {
         let mut motion = MotionStatement { name, ..MotionStatement::default() };
         loop {
             let at = self.rest;
-            let word = option_word(at).ok();
-            let curve = word.and_then(|(rest, word)| {
-                let is_it = |kind: &&CurveKind| kind.word().as_bytes() == word;
-                Some((rest, CurveKind::ALL.iter().find(is_it)?))
-            });
+            let word = option_word(at).map_or(&[][..], |(_, word)| word);
+            let curve = CurveKind::ALL.iter().find(|kind| kind.word().as_bytes() == word);
             let path_word = match word {
-                Some((_, b"vel" | b"acc")) => Some("vel"),
-                Some((_, b"path")) => Some("path"),
-                _ => curve.map(|(_, kind)| kind.word()),
+                b"vel" | b"acc" => Some("vel"),
+                b"path" => Some("path"),
+                _ => curve.map(CurveKind::word),
             };
             if path_word.is_some_and(|word| motion.path_word.is_some_and(|other| other != word)) {
                 let problem = "the motion has another path already";
                 return refuse(at, Reason::Impossible(1, problem, CurveKind::PATHS));
             }
             motion.path_word = path_word.or(motion.path_word);
-            if let Some((rest, kind)) = curve {
-                self.rest = rest;
+            if let Some(kind) = curve {
+                self.take(option_word)?;
                 motion.path = Some(PathStatement::Curve(kind, self.curve_numbers(kind)?));
             } else if !OPTIONS.read_one(&mut motion, self)? {
                 break;
@@ -112,14 +109,11 @@ impl<'t> Grammar<'t, '_> {
         Ok(numbers)
     }
 
-    pub fn optional_motion(&mut self) -> Outcome<'t, Option<MotionReference>> {
-        let is_stated = self.at()?.starts_with(b"<");
-        if is_stated { self.motion_reference().map(Some) } else { Ok(None) }
-    }
-
     /// `< x y z [-gamma γ] [-at x y z] [-turn x y z] [-shift t x y z] >` or `< NAME >`
-    fn motion_reference(&mut self) -> Outcome<'t, MotionReference> {
-        self.take(mark(b'<', "`<` and a velocity or the name of a motion"))?;
+    pub fn optional_motion(&mut self) -> Outcome<'t, Option<MotionReference>> {
+        if self.optional(mark(b'<', "`<`"))?.is_none() {
+            return Ok(None);
+        }
         let motion = match self.name(NAME) {
             Ok(name) => MotionReference::Named(name),
             Err(_) => {
@@ -129,7 +123,7 @@ impl<'t> Grammar<'t, '_> {
             }
         };
         self.take(mark(b'>', "`>`"))?;
-        Ok(motion)
+        Ok(Some(motion))
     }
 
     /// `x y z`, a velocity in fractions of c, or `x y z -gamma γ`, its direction and Lorentz
