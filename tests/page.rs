@@ -357,8 +357,8 @@ fn turns_are_those_of_the_camera() {
     }
 }
 
-/// A recorded flight is drawn by ugfilm with the pixels that the page draws, and pictures in between,
-/// of a camera that passes the same event with the same velocity, are the same but for rounding.
+/// A recorded flight is drawn by ugfilm with the pixels that the page draws. Pictures in between,
+/// of a camera that passes the event with the same velocity, are the same but for rounding.
 #[test]
 fn recorded_flights_are_films() {
     let shell = Shell::new(&["house.ug", "street.ug", "twins.ug", "stars.csv"]);

@@ -87,6 +87,8 @@ export function commands(c, { size = sides(), file = null, isDraft = false, pose
     ...flag(!!file?.endsWith('.svg') && !isRays && !state.isSky, '-vec'),
     '-sz', ...size.map(String),
     ...flag(c.dl && !state.isSky, '-dl'), ...flag(c.gr && !state.isSky, '-gr'),
+    // Pictures that are soon replaced have few samples.
+    ...flag(isDraft && !/(^|\s)--?(aa|samples)\b/.test(c.more), '-aa', isRays || state.isSky ? '1' : '2'),
     ...flag(c.lg && !isDraft, '-lg'), ...flag(c.map && !state.isSky, '-map', 'D'),
     ...flag(!!c.unit, '-unit', c.unit), ...flag(!!c.light, '-c', c.light), ...flag(!!exposure, '-ex', exposure),
     ...(isFlown && isThree ? of('ugrainbow', words(c.more)) : words(c.more)), ...flag(!!file, '-fo', file ?? ''),

@@ -213,6 +213,7 @@ export function complain(/** @type {unknown} */ text) {
   $('message').replaceChildren(element('span', { textContent: line }), ...more);
   $('message').hidden = false;
   $('status').textContent = 'no picture';
+  $('work').hidden = true;
   work.since = Infinity;
 }
 
@@ -235,7 +236,8 @@ export const work = {
     const isBusy = full.isBusy || drafts.some(studio => studio.isBusy);
     const late = now - Math.max(work.lastShown, work.since);
     const isLate = isBusy && late > SIGN_MS && !flying.isPlaying;
-    const isOld = isBusy && late > (work.isNew ? SIGN_MS : OLD_MS) && state.drawn !== state.turn && views[0].shown < state.turn;
+    const isMissing = state.drawn !== state.turn && views[0].shown < state.turn;
+    const isOld = isMissing && (isBusy ? late > (work.isNew ? SIGN_MS : OLD_MS) : work.isNew && !$('message').hidden);
     $('stage').classList.toggle('old', isOld);
     $('work').hidden = !isLate;
     if (!isLate) return;
@@ -266,6 +268,7 @@ export function renew() {
   Object.assign(work, { since: performance.now(), isNew: true, isStopped: false });
   views.forEach(view => { view.asked = state.turn; });
   $('message').hidden = true;
+  $('words').textContent = '';
   notes('');
 }
 

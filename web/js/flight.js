@@ -249,7 +249,7 @@ function stepBy(/** @type {number} */ passed, standing = [0, 0, 0]) {
   const push = [forward, right, up].map(part => part * thrust());
   const hand = [standing[0], standing[1] - glance[1], standing[2] - glance[0]].map(part => part / own_time);
   const turn = [roll, pitch, yaw].map((part, k) => part / pace() + hand[k]);
-  glance = [0, 0];
+  [glance, distanceAhead] = [[0, 0], null];
   craft.step(own_time, new Float64Array(push), new Float64Array(turn));
   own = craft.end;
   showInstruments();
@@ -280,7 +280,7 @@ function showInstruments() {
   const inLength = (/** @type {number} */ units) => meters ? `${brief(units)} ${unit}` : brief(units);
   const acceleration = thrust() * c / time;
   $('paced').textContent = `1 s = ${inTime(pace())}`;
-  $('pushed').textContent = time ? `${brief(acceleration / G)} g` : `${brief(thrust())} c`;
+  $('pushed').textContent = time ? `${brief(acceleration / G)} g` : `${brief(thrust())} c/unit`;
   $('lit').textContent = light ? `${light.replace('km/h', ' km/h')}` : 'real';
   if (!craft) return;
   const { event, velocity, gamma } = /** @type {Pose} */ (flying.pose());

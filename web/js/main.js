@@ -96,6 +96,7 @@ function label() {
   $('versus').hidden = !c.compare;
   $('faster').hidden = c.compare !== 'speed';
   compare(c);
+  flying.label();
   $('reset').textContent = state.isSky ? 'Look ahead' : 'Camera of the scene';
   $('reset').disabled = flying.isOn;
   const shown = radians(90 + state.azimuth - ahead());

@@ -126,7 +126,8 @@ impl Flight {
         let [begin, end] = [self.end, rounded(self.end + own_time)];
         let (&[forward, right, up], &[roll, pitch, yaw]) = (thrust, turn) else { return };
         let is_finite = thrust.iter().chain(turn).all(|number| number.is_finite());
-        if !is_finite || !(end > begin) {
+        let is_later = end > begin;
+        if !is_finite || !is_later {
             return;
         }
         let passed = end - begin;

@@ -24,7 +24,8 @@ pub struct Args {
     /// rustup]
     #[arg(long, value_name = "FOLDER")]
     toolchain: Option<PathBuf>,
-    /// Test the page in Chromium (/usr/bin/chromium); requires node and npm
+    /// Test the page in Chromium (/usr/bin/chromium), and in Firefox (/usr/bin/firefox-esr) if it is
+    /// there; requires node and npm
     #[arg(long)]
     test: bool,
 }
@@ -222,21 +223,23 @@ fn packed(bytes: &[u8]) -> String {
     STANDARD.encode(miniz_oxide::deflate::compress_to_vec_zlib(bytes, 10))
 }
 
-/// Drives the page in Chromium, and compares what it saves with what the programs write.
+/// Checks the types of the page's modules, drives it in Chromium, and in Firefox if that is installed,
+/// and compares what it saves with what the programs write.
 fn test(folder: &Path, page: &Path) -> io::Result<()> {
     let mut npm = Command::new("npm");
     npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"])
         .arg(folder)
-        .args(["playwright-core@1", "typescript@7"]);
+        .args(["playwright-core@1", "puppeteer-core", "typescript@7"]);
     run(&mut npm)?;
     // The types of the modules, which Chromium runs without them.
     let mut types = Command::new(folder.join("node_modules/.bin/tsc"));
     run(types.arg("--project").arg(root().join("web/js/tsconfig.json")))?;
-    let script = folder.join("test.mjs");
-    fs::copy(root().join("web/test.mjs"), &script)?;
-    run(Command::new("node")
-        .arg(script)
-        .arg(page)
-        .arg(programs::released())
-        .arg(root().join("scenes")))
+    for name in ["test.mjs", "firefox.mjs"] {
+        let script = folder.join(name);
+        fs::copy(root().join("web").join(name), &script)?;
+        let mut node = Command::new("node");
+        node.arg(script).arg(page).arg(programs::released()).arg(root().join("scenes"));
+        run(&mut node)?;
+    }
+    Ok(())
 }
