@@ -11,7 +11,7 @@ use ugtests::documents::{Page, fill, shrunk, transcripts, with_options, written_
 use ugtests::{programs, scenes, tools, tracked};
 
 /// Pages with commands, the folder that they name, and the least number of commands.
-const PAGES: [(&str, Folder, usize); 14] = [
+const PAGES: [(&str, Folder, usize); 15] = [
     ("README.md", Folder::Examples, 18),
     ("docs/start.md", Folder::Empty, 9),
     ("docs/teaching.md", Folder::Examples, 12),

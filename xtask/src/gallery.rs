@@ -15,7 +15,7 @@ use ugtests::scenes;
 use crate::programs;
 
 /// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 7] = [
+const PAGES: [(&str, [u32; 2]); 8] = [
     (README, [640, 480]),
     ("docs/gallery.md", [640, 480]),
     ("docs/start.md", [1280, 960]),

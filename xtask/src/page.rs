@@ -227,9 +227,11 @@ fn packed(bytes: &[u8]) -> String {
 /// and compares what it saves with what the programs write.
 fn test(folder: &Path, page: &Path) -> io::Result<()> {
     let mut npm = Command::new("npm");
-    npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"])
-        .arg(folder)
-        .args(["playwright-core@1", "puppeteer-core", "typescript@7"]);
+    npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"]).arg(folder).args([
+        "playwright-core@1",
+        "puppeteer-core",
+        "typescript@7",
+    ]);
     run(&mut npm)?;
     // The types of the modules, which Chromium runs without them.
     let mut types = Command::new(folder.join("node_modules/.bin/tsc"));
