@@ -88,7 +88,7 @@ fn read_mesh(bytes: &[u8]) -> Mesh {
             number << 1 | u32::from(bit)
         })
     };
-    let width = |n: usize| (2.0 * n as f64).log2().ceil() as u32;
+    let width = |n: usize| libm::log2(2.0 * n as f64).ceil() as u32;
     let step = |number: u32| {
         let half = i64::from(number.div_ceil(2));
         if number % 2 == 1 { -half } else { half }
@@ -221,7 +221,8 @@ fn check_first_version(film: &[u8], is_there: bool, eyes: u8) {
 fn check_mesh(mesh: &Mesh, options: &str) {
     let nearest = |direction: [f32; 3]| {
         let off = |vertex: &&[f32; 5]| -> f32 {
-            (0..3).map(|axis| (vertex[axis] - direction[axis]).powi(2)).sum()
+            let part = |axis: usize| vertex[axis] - direction[axis];
+            (0..3).map(|axis| part(axis) * part(axis)).sum()
         };
         let best = mesh.vertices.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
         assert!(off(&best) < 1e-6, "{options}: {best:?}");

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum Note {
     /// From `uglorentz`.
-    Lorentz(uglorentz::Report),
+    Lorentz(Box<uglorentz::Report>),
     /// From `ugdoppler`.
     Doppler(ugdoppler::Note),
     /// From the program of this name, which drew the picture.

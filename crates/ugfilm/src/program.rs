@@ -139,7 +139,10 @@ impl Program {
         let mut picture = match (self, item) {
             (Self::Lorentz(config), FilmItem::Scene(scene)) => {
                 let (scene, report) = uglorentz::apply_with(*scene, config, progress)?;
-                return Ok(Some((FilmItem::Scene(scene.into()), vec![Note::Lorentz(report)])));
+                return Ok(Some((
+                    FilmItem::Scene(scene.into()),
+                    vec![Note::Lorentz(report.into())],
+                )));
             }
             (Self::Doppler(config), FilmItem::Scene(scene)) => {
                 let (scene, notes) = ugdoppler::apply_with(*scene, config, progress)?;
