@@ -359,7 +359,8 @@ impl<'t> Reader<'t, '_> {
             _ => match read_alone(self.text, body, keyword, &mut Vec::new()) {
                 Some(Ok(())) => true,
                 Some(Err(error)) => {
-                    // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
+                    // It may lack its own `;`. Before a parenthesis, however, it is part of a
+                    // contour.
                     let SyntaxError { at, reason } = error.into();
                     let in_contour = matches!(skip_blank(at), [b'(' | b')', ..]);
                     reason == Reason::Expected(END)

@@ -1,8 +1,8 @@
 //! The statements of the language: a row of [`STATEMENTS`] for each, the function that reads what
 //! follows its keyword, and beside that the one that writes it.
 //!
-//! Readers move a cursor over tokens, which are nom parsers, up to and with the closing `;`. They add
-//! rows to the tables of a [`Scope`](crate::scope::Scope).
+//! Readers move a cursor over tokens, which are nom parsers, up to and with the closing `;`. They
+//! add rows to the tables of a [`Scope`](crate::scope::Scope).
 
 mod calls;
 mod cameras;
