@@ -51,7 +51,7 @@ fn intervals_are_the_same_in_all_frames() {
             let difference = Event { t: number(), x: DVec3::new(number(), number(), number()) };
             let there = frame.components(difference);
             let size = there.t * there.t + there.x.length_squared();
-            let [here, there] = [difference, there].map(|event| Interval::of(event));
+            let [here, there] = [difference, there].map(Interval::of);
             assert!((here.square - there.square).abs() <= 1e-13 * size, "{}", frame.name);
             assert!(here.kind == there.kind || here.square.abs() < 1e-12 * size);
             // There and back.
