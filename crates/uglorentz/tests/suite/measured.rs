@@ -139,7 +139,7 @@ fn bodies_on_world_lines_are_where_they_are() {
     for time in [0.0_f64, 2.0, 12.0] {
         let scene = measured(text, MeasuredFrame::Scene, at(time));
         for (name, xi) in [("a", 0.0_f64), ("b", 3.0), ("c", -2.0)] {
-            let x = (4.0 + xi).hypot(time) - 4.0;
+            let x = libm::hypot(4.0 + xi, time) - 4.0;
             assert!((place(&scene, name).x - x).abs() < 1e-11, "{name} at {time}");
         }
         let (sin, cos) = libm::sincos(0.5 * time);
