@@ -103,13 +103,12 @@ fn faces_are_hues_or_light() {
         (&[of_hue, of_light].concat(), [true, true]),
     ] {
         // Two faces of two colours do not meet.
-        let apart = faces.replacen("other", "other", 1);
         let other = "v d 5 0 0; v e 6 0 0; v g 5 1 0;";
-        let text = format!("{hue}{light}{triangle}{other}{apart}");
-        let text = match faces.matches("f (").count() {
-            2 => text.replace("f (a b c) other", "f (d e g) other"),
-            _ => text,
+        let faces = match faces.matches("f (").count() {
+            2 => faces.replace("f (a b c) other", "f (d e g) other"),
+            _ => faces.to_owned(),
         };
+        let text = format!("{hue}{light}{triangle}{other}{faces}");
         let scene = scene(&text);
         for shift in [ColorShift::NONE, ColorShift::default()] {
             assert_eq!(appearance(&scene, shift).draws_light(&scene), kinds, "{faces} {shift:?}");
