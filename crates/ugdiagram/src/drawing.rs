@@ -194,8 +194,15 @@ impl Pen<'_> {
             CurveRole::Interval => (1.2, Some([0.16, 0.16])),
         };
         let width = width * self.sheet.hairline;
+        // Without gaps at the bends of curves.
+        let joined = |&[a, b]: &[Point; 2]| {
+            let (x, y) = (b[0] - a[0], b[1] - a[1]);
+            let part = 0.4 * width / libm::hypot(x, y).max(f64::MIN_POSITIVE);
+            [[a[0] - part * x, a[1] - part * y], [b[0] + part * x, b[1] + part * y]]
+        };
         let lines = match dash {
             Some(dash) => dashed(&pieces, dash.map(|part| part * self.sheet.em)),
+            None if pieces.len() > 1 => pieces.iter().map(joined).collect(),
             None => pieces.clone(),
         };
         match (curve.role, pieces.last()) {

@@ -18,8 +18,8 @@ pub enum Note {
         /// The line along whose motion it is; `None` if nothing moves.
         motion: Option<String>,
     },
-    /// A line is left out, because it coincides with another one.
-    Coincident([String; 2]),
+    /// Lines are left out, because each coincides with another one.
+    Coincident(Vec<[String; 2]>),
     /// Events are beside the plane of the diagram, so they are inside of the light cone.
     OutOfPlane(usize),
     /// Events are outside of the window.
@@ -45,8 +45,10 @@ impl fmt::Display for Note {
                     None => write!(f, "nothing moves, and the axis is {axis}"),
                 }
             }
-            Self::Coincident([line, other]) => {
-                write!(f, "`{line}` is where `{other}` is, and is left out")
+            Self::Coincident(lines) => {
+                let lines = lines.iter().map(|[line, other]| format!("`{line}` (`{other}`)"));
+                let lines = lines.collect::<Vec<_>>().join(", ");
+                write!(f, "left out where another line is: {lines}")
             }
             Self::OutOfPlane(n) => write!(
                 f,
@@ -72,7 +74,8 @@ impl Note {
         };
         let axis = diagram.axis.to_array();
         notes.extend(motion.map(|motion| Self::Axis { axis, motion }));
-        notes.extend(diagram.coincident.iter().cloned().map(Self::Coincident));
+        let coincident = &diagram.coincident;
+        notes.extend((!coincident.is_empty()).then(|| Self::Coincident(coincident.clone())));
         let emissions = || diagram.marks.iter().filter(|mark| mark.role == MarkRole::Emission);
         let is_beside = |place: [f64; 2], eye: [f64; 2]| {
             /// Part of the time of flight.

@@ -299,14 +299,14 @@ mod tests {
             let listed = installed(to.path());
             let n_pages = pages(scenes::root()).expect("pages").len();
             assert!(n_pages > 60, "{n_pages}");
-            assert_eq!(listed.lines().count(), 10 + 2 + 10 * 4 + n_pages + 1, "{listed}");
+            assert_eq!(listed.lines().count(), 11 + 2 + 11 * 4 + n_pages + 1, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
         }
         assert_eq!(
             fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"),
             "ugrainbow"
         );
-        assert_eq!(below(&to.path().join("bin")).len(), 10);
+        assert_eq!(below(&to.path().join("bin")).len(), 11);
     }
 
     /// Every link in an installed page leads to a file that is installed, too.

@@ -45,7 +45,7 @@ impl Words for Note {
     fn words(&self) -> String {
         match self {
             Self::Axis { .. } => format!("{self}; -axis X Y Z gives another"),
-            Self::Coincident(_) => format!("{self}; -show draws both"),
+            Self::Coincident(_) => format!("{self}; -show draws them"),
             Self::Outside(_) => format!("{self}: widen -times and -places"),
             Self::Omitted(_) => format!("{self}: give a larger -sz, or a smaller -ts"),
             Self::OutOfPlane(_) | Self::Interval { .. } => self.to_string(),
