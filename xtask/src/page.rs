@@ -79,8 +79,9 @@ fn compile(folder: &Path, toolchain: Option<&Path>) -> io::Result<PathBuf> {
         // Without rustup, the target may be there nevertheless; cargo says if not.
         None => drop(Command::new("rustup").args(["target", "add", TARGET]).status()),
     }
-    // wasm-bindgen reads a section that stripping removes.
-    run(cargo.args(["--", "-Cstrip=none"]))?;
+    // wasm-bindgen reads a section that stripping removes. The stack has 8 MB, as programs on Linux
+    // have it, not 1 MB.
+    run(cargo.args(["--", "-Cstrip=none", "-Clink-arg=-zstack-size=8388608"]))?;
     Ok(build.join(TARGET).join("release/ugweb.wasm"))
 }
 
@@ -227,9 +228,11 @@ fn packed(bytes: &[u8]) -> String {
 /// and compares what it saves with what the programs write.
 fn test(folder: &Path, page: &Path) -> io::Result<()> {
     let mut npm = Command::new("npm");
-    npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"])
-        .arg(folder)
-        .args(["playwright-core@1", "puppeteer-core", "typescript@7"]);
+    npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"]).arg(folder).args([
+        "playwright-core@1",
+        "puppeteer-core",
+        "typescript@7",
+    ]);
     run(&mut npm)?;
     // The types of the modules, which Chromium runs without them.
     let mut types = Command::new(folder.join("node_modules/.bin/tsc"));
