@@ -79,8 +79,9 @@ fn compile(folder: &Path, toolchain: Option<&Path>) -> io::Result<PathBuf> {
         // Without rustup, the target may be there nevertheless; cargo says if not.
         None => drop(Command::new("rustup").args(["target", "add", TARGET]).status()),
     }
-    // wasm-bindgen reads a section that stripping removes.
-    run(cargo.args(["--", "-Cstrip=none"]))?;
+    // wasm-bindgen reads a section that stripping removes. The stack has 8 MB, as programs on Linux
+    // have it, not 1 MB.
+    run(cargo.args(["--", "-Cstrip=none", "-Clink-arg=-zstack-size=8388608"]))?;
     Ok(build.join(TARGET).join("release/ugweb.wasm"))
 }
 
