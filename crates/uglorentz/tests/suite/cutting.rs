@@ -762,7 +762,8 @@ fn small_spheres_on_world_lines_have_few_pieces() {
     let text = format!("motion m -spin 0 0 .1; {spheres} {camera}");
     let found = run(&text, &Config::default());
     assert!(found.scene.faces.len() < 200 * 150, "{}", found.scene.faces.len());
-    // A near one is as fine as before.
+    // A near one has the polygons that it has without an eye, of 1/4000 of its radius, and more where
+    // edges bend.
     let near = "motion m -spin 0 0 .1; sphere 0 0 0 2 <m>; cam -ep 0 -2.2 0 -vc 0 0 0;";
-    assert_eq!(run(near, &Config::default()).scene.faces.len(), 20_000);
+    assert!(run(near, &Config::default()).scene.faces.len() >= 20_000);
 }

@@ -180,8 +180,8 @@ fn errors_have_locations_and_remedies() {
         "(ugstage 1 geometry as-seen eye 0 0 0 law report)",
         "1:39",
         &unexpected("law"),
-        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `colors`, \
-         `mixtures`",
+        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `whole`, \
+         `colors`, `mixtures`",
     );
     check("(ugstage 1 colors as-seen)", "1:26", "a word is missing", "add `hues` or `wavelengths` or `spectra`");
     check("(ugstage 1 mixtures)", "1:20", "the prefix of mixtures is missing", "add `mix#`");
