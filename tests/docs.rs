@@ -170,12 +170,10 @@ fn commands_in_documents_work() {
         let is_possible = |command: &&String| has_ffmpeg || !command.contains(".mp4");
         for command in page.commands.iter().filter(is_possible) {
             let small = shrunk(command);
-            // An option is given once.
-            let small = if small.contains(" -aa ") || small.contains(" -vec ") {
-                small
-            } else {
-                with_options(&small, "-aa 1")
-            };
+            // An option is given once; vectors and diagrams have no samples.
+            let has_samples =
+                [" -aa ", " -vec ", "ugdiagram "].iter().all(|word| !small.contains(word));
+            let small = if !has_samples { small } else { with_options(&small, "-aa 1") };
             let messages = page
                 .run(&small, folder.path(), programs)
                 .unwrap_or_else(|message| panic!("{message}"));
