@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugpipe::{Failure, Words};
 use ugscene::{CameraOptions, Scene, View};
-use ugsheet::film::{Eyes, Mesh, Projection, Surround};
+use ugsheet::film::{Eyes, FilmProjection, Surround, SurroundMesh};
 use ugtrace::lens::{Film, Lens};
 
 use crate::pipe::Pipe;
@@ -27,13 +27,13 @@ pub fn surround(pipe: &Pipe) -> Result<Option<Surround>, Failure> {
         return Ok(None);
     }
     let projection = match lens {
-        Lens::Pinhole => Projection::Flat,
-        Lens::Panorama => Projection::Equirectangular,
+        Lens::Pinhole => FilmProjection::Flat,
+        Lens::Panorama => FilmProjection::Equirectangular,
         Lens::Fisheye { .. } | Lens::Cube => {
             // Eyes have half of the width each.
             let [width, height] = pipe.picture.size;
             let size = [if is_stereo { width / 2 } else { width }, height];
-            Projection::Mesh(mesh(lens, size).map_err(|error| Failure::failed(error.words()))?)
+            FilmProjection::Mesh(mesh(lens, size).map_err(|error| Failure::failed(error.words()))?)
         }
     };
     let eyes = match (is_stereo, lens) {
@@ -41,11 +41,11 @@ pub fn surround(pipe: &Pipe) -> Result<Option<Surround>, Failure> {
         (true, Lens::Panorama) => Eyes::TopBottom,
         (true, _) => Eyes::LeftRight,
     };
-    Ok(Some(Surround { projection, eyes }))
+    Ok(Some(Surround { projection, eyes, source: env!("CARGO_PKG_NAME") }))
 }
 
 /// A mesh that shows the picture of one eye. `size`: of this picture.
-fn mesh(lens: Lens, size: [u32; 2]) -> Result<Mesh, ugscene::CameraError> {
+fn mesh(lens: Lens, size: [u32; 2]) -> Result<SurroundMesh, ugscene::CameraError> {
     let camera = CameraOptions {
         eye: Some(DVec3::ZERO),
         center: Some(DVec3::NEG_Z),
@@ -57,8 +57,8 @@ fn mesh(lens: Lens, size: [u32; 2]) -> Result<Mesh, ugscene::CameraError> {
     let view = View::new(&Scene::default(), &camera, frame)?;
     let film = Film::new(lens, None, &view, frame);
     let [width, height] = size.map(f64::from);
-    let mut mesh = Mesh::default();
-    let add = |mesh: &mut Mesh, [x, y]: [f64; 2]| {
+    let mut mesh = SurroundMesh::default();
+    let add = |mesh: &mut SurroundMesh, [x, y]: [f64; 2]| {
         let direction = film.sight([x, y]).map_or(DVec3::ZERO, |sight| sight.direction);
         let [right, up, back] = direction.to_array();
         mesh.vertices.push([right, up, back, x / width, 1.0 - y / height].map(|it| it as f32));
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     /// The place of a frame that a mesh shows in a direction: its triangle's weighted mean.
-    fn shown(mesh: &Mesh, direction: DVec3) -> Option<[f64; 2]> {
+    fn shown(mesh: &SurroundMesh, direction: DVec3) -> Option<[f64; 2]> {
         let vertex = |row: u32| mesh.vertices[row as usize].map(f64::from);
         mesh.triangles.iter().find_map(|corners| {
             let corners = corners.map(vertex);

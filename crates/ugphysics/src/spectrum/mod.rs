@@ -34,6 +34,7 @@ mod cie_1931;
 mod curve;
 mod daylight;
 mod doppler_table;
+mod dot;
 mod foliage;
 mod infrared;
 mod light_spectrum;

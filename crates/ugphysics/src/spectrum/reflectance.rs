@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use crate::spectrum::curve::Curve;
+use crate::spectrum::dot::dot;
 use crate::spectrum::foliage;
 use crate::spectrum::infrared::{self, InfraredRule};
-use crate::spectrum::quadrature::{Quadrature, dot};
+use crate::spectrum::quadrature::Quadrature;
 use crate::spectrum::ranges::{CURVE_NM, N_LEVELS, N_NM};
 use crate::spectrum::upsampling::solve;
 use crate::spectrum::weighted_daylight::WeightedDaylight;

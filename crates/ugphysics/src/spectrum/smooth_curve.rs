@@ -5,8 +5,8 @@ use std::sync::{LazyLock, OnceLock};
 use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
 use crate::spectrum::daylight::daylight;
 use crate::spectrum::doppler_table::{Cell, LN_STEP};
+use crate::spectrum::dot::dot;
 use crate::spectrum::observer::SUM_Y;
-use crate::spectrum::quadrature::dot;
 use crate::spectrum::radiance::{Kind, Spectrum};
 
 /// Whole nanometres at the eye.

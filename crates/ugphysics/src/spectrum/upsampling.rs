@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use crate::xyz_to_linear_srgb;
 
 use crate::spectrum::curve::{Curve, Functions, N_FIXED};
-use crate::spectrum::quadrature::{Quadrature, dot};
+use crate::spectrum::dot::dot;
+use crate::spectrum::quadrature::Quadrature;
 use crate::spectrum::ranges::{N_LEVELS, N_NM};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 

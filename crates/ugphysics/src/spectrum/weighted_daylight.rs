@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
 use crate::spectrum::daylight::daylight;
+use crate::spectrum::dot::DOT_GROUP;
 use crate::spectrum::infrared;
 use crate::spectrum::observer::weighted_sums;
-use crate::spectrum::quadrature::DOT_GROUP;
 use crate::spectrum::ranges::{CURVE_NM, N_LEVELS, N_NM};
 
 /// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.

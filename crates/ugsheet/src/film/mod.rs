@@ -5,17 +5,19 @@ mod encode;
 mod footage;
 mod frame_names;
 mod joined;
+mod kind;
 mod lesson;
 mod palette;
 mod surround;
 
 pub use animation::{FilmShape, MOST_GIF_RATE};
-pub use encode::{FilmFile, FilmKind, write};
+pub use encode::{FilmFile, write};
 pub(crate) use footage::{Footage, is_film, names_frames};
 pub use frame_names::FrameNames;
 pub(crate) use joined::Joined;
+pub use kind::FilmKind;
 pub use lesson::Caption;
-pub use surround::{Eyes, Mesh, Projection, Surround};
+pub use surround::{Eyes, FilmProjection, Surround, SurroundMesh};
 
 /// Frames a second of a film that states no other.
 pub const DEFAULT_RATE: f64 = 25.0;

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 /// Triangles around the eye, each of which shows a part of the frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh {
+pub struct SurroundMesh {
     /// x to the right, y up and z backwards, then the place in the frame: across and up, 0 to 1.
     pub vertices: Vec<[f32; 5]>,
     /// Rows of vertices, counterclockwise as the eye sees them.
     pub triangles: Vec<[u32; 3]>,
 }
 
-impl Mesh {
+impl SurroundMesh {
     /// The content of a `mesh` box: each number once, then differences of indices, in as many bits
     /// as the largest can need.
     pub(super) fn packed(&self) -> Vec<u8> {

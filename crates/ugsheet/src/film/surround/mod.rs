@@ -13,28 +13,30 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-pub use mesh::Mesh;
+pub use mesh::SurroundMesh;
 
-use super::FilmKind;
+use super::kind::FilmKind;
 
 /// What a film shows of all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surround {
     /// Which direction is seen at a place of a frame.
-    pub projection: Projection,
+    pub projection: FilmProjection,
     /// Where the pictures of two eyes are.
     pub eyes: Eyes,
+    /// The program that made the film.
+    pub source: &'static str,
 }
 
 /// Which direction is seen at a place of a frame, or of an eye's part of it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Projection {
+pub enum FilmProjection {
     /// A plane, as in any film.
     Flat,
     /// All directions: longitude across, latitude down.
     Equirectangular,
     /// The places of a frame that the vertices of a mesh around the eye show.
-    Mesh(Mesh),
+    Mesh(SurroundMesh),
 }
 
 /// Where the pictures of two eyes are in a frame.
@@ -47,9 +49,6 @@ pub enum Eyes {
     /// The left eye's on the left.
     LeftRight,
 }
-
-/// The program in the marks.
-const SOURCE: &str = "ugfilm";
 
 impl Surround {
     /// Arguments of ffmpeg for what it writes itself, and for room that marks need in the file.
@@ -87,14 +86,15 @@ impl Surround {
             Eyes::TopBottom => "<GSpherical:StereoMode>top-bottom</GSpherical:StereoMode>",
             Eyes::LeftRight => "<GSpherical:StereoMode>left-right</GSpherical:StereoMode>",
         };
-        (self.projection == Projection::Equirectangular).then(|| {
+        let source = self.source;
+        (self.projection == FilmProjection::Equirectangular).then(|| {
             format!(
                 "<?xml version=\"1.0\"?><rdf:SphericalVideo \
                  xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\" \
                  xmlns:GSpherical=\"http://ns.google.com/videos/1.0/spherical/\">\
                  <GSpherical:Spherical>true</GSpherical:Spherical>\
                  <GSpherical:Stitched>true</GSpherical:Stitched>\
-                 <GSpherical:StitchingSoftware>{SOURCE}</GSpherical:StitchingSoftware>\
+                 <GSpherical:StitchingSoftware>{source}</GSpherical:StitchingSoftware>\
                  <GSpherical:ProjectionType>equirectangular</GSpherical:ProjectionType>\
                  {eyes}</rdf:SphericalVideo>"
             )
@@ -105,10 +105,10 @@ impl Surround {
     /// has, too. Empty for a plane.
     fn projection_data(&self) -> Vec<u8> {
         match &self.projection {
-            Projection::Flat => Vec::new(),
+            FilmProjection::Flat => Vec::new(),
             // Nothing is cut off at any of the four edges.
-            Projection::Equirectangular => vec![0; 4 + 4 * 4],
-            Projection::Mesh(mesh) => {
+            FilmProjection::Equirectangular => vec![0; 4 + 4 * 4],
+            FilmProjection::Mesh(mesh) => {
                 let content = [b"raw ".to_vec(), mp4::boxed(*b"mesh", &[&mesh.packed()])].concat();
                 let crc = crc32fast::hash(&content);
                 [vec![0; 4], crc.to_be_bytes().to_vec(), content].concat()

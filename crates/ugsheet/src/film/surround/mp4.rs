@@ -4,7 +4,7 @@
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
-use super::{Eyes, Projection, SOURCE, Surround, make_room, unexpected};
+use super::{Eyes, FilmProjection, Surround, make_room, unexpected};
 
 /// The `uuid` of version 1.
 const FIRST_VERSION: [u8; 16] =
@@ -118,11 +118,11 @@ fn marks(surround: &Surround) -> Vec<u8> {
     };
     let stereo = boxed(*b"st3d", &[&WHOLE, &[eyes]]);
     let kind = match surround.projection {
-        Projection::Flat => return stereo,
-        Projection::Equirectangular => *b"equi",
-        Projection::Mesh(_) => *b"mshp",
+        FilmProjection::Flat => return stereo,
+        FilmProjection::Equirectangular => *b"equi",
+        FilmProjection::Mesh(_) => *b"mshp",
     };
-    let header = boxed(*b"svhd", &[&WHOLE, SOURCE.as_bytes(), &[0]]);
+    let header = boxed(*b"svhd", &[&WHOLE, surround.source.as_bytes(), &[0]]);
     // The camera is level and looks ahead.
     let pose = boxed(*b"prhd", &[&WHOLE, &[0; 12]]);
     let projection = boxed(*b"proj", &[&pose, &boxed(kind, &[&surround.projection_data()])]);

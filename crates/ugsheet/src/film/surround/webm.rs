@@ -1,4 +1,4 @@
-//! Marks in WebM: `Projection` in the description of the pictures. ffmpeg writes the other marks.
+//! Marks in WebM: `FilmProjection` in the description of the pictures. ffmpeg writes the other marks.
 //!
 //! Pictures and the index behind them keep their places: ffmpeg leaves room before the first
 //! pictures, some of it as a tag ([`ROOM`]).
@@ -6,7 +6,7 @@
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
-use super::{Projection, Surround, unexpected};
+use super::{FilmProjection, Surround, unexpected};
 
 /// Name of the tag that stands for room. It is taken away.
 pub(super) const ROOM: &str = "ROOM";
@@ -144,9 +144,9 @@ fn point_to(places: &[(u32, usize)], index: &mut [u8]) -> io::Result<()> {
 /// Tracks with the projection at the end of `Video`.
 fn with_projection(elements: &[u8], surround: &Surround) -> io::Result<Vec<u8>> {
     let kind = match surround.projection {
-        Projection::Flat => return Ok(elements.to_vec()),
-        Projection::Equirectangular => 1,
-        Projection::Mesh(_) => 3,
+        FilmProjection::Flat => return Ok(elements.to_vec()),
+        FilmProjection::Equirectangular => 1,
+        FilmProjection::Mesh(_) => 3,
     };
     each(elements, |element| {
         Ok(Some(match element.id {
