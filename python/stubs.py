@@ -28,7 +28,7 @@ THREADED = f'''    threads: int | None
 '''
 
 #: Values that are text.
-TEXTS = {"TEXT", "NAME", "FILE", "NAMES", "LAW", "FILTER", "CURVE", "FMT", "LOOK", "WORD", "HOW", "KIND", "SKY"}
+TEXTS = {"TEXT", "NAME", "FILE", "NAMES", "FRAME", "LAW", "FILTER", "CURVE", "FMT", "LOOK", "WORD", "HOW", "KIND", "SKY"}
 
 
 def type_of(program: str, option: Option) -> str:
