@@ -82,6 +82,8 @@ class Lorentz(TypedDict, total=False):
     """The same as no_contraction."""
     no_flight_time: bool | None
     """True. For teaching: omit the light travel time"""
+    measured: Text | None
+    """FRAME. Where bodies are at one time of a frame, not where they are seen: camera, scene, or a body"""
     look: Text | None
     """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
     cull: bool | None
@@ -830,6 +832,8 @@ class Film(Reading, total=False):
     """The same as no_contraction."""
     no_flight_time: bool | None
     """True. For teaching: omit the light travel time"""
+    measured: Text | None
+    """FRAME. Where bodies are at one time of a frame, not where they are seen: camera, scene, or a body"""
     cull: bool | None
     """True. Remove faces that are outside the view of the camera"""
     camera: Text | None
