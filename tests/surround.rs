@@ -234,7 +234,7 @@ fn check_mesh(mesh: &Mesh, options: &str) {
     };
     if options.contains("-cube") {
         assert_eq!((mesh.vertices.len(), mesh.triangles.len()), (24, 12));
-        // A corner that three sides share.
+        // The corner of the cube where the right, the upper and the front side meet.
         let third = 1.0 / 3.0_f32.sqrt();
         let corners = mesh.vertices.iter().filter(|vertex| {
             (0..3).all(|axis| (vertex[axis] - [third, third, -third][axis]).abs() < 1e-6)

@@ -680,8 +680,8 @@ impl<'s> Plan<'s> {
         Ok((name, event))
     }
 
-    /// A frame, an event through which its line goes, and the row of its owner. The frame of what
-    /// accelerates is that at this event, unless an own time is given.
+    /// A frame, an event on its line of simultaneity, and the row of the body it belongs to. The frame
+    /// of a body that accelerates is the momentary one at this event, unless an own time is given.
     fn frame_through(
         &mut self,
         word: &FrameWord,

@@ -57,7 +57,7 @@ impl fmt::Display for FrameWord {
 /// An event, as a word names it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventWord {
-    /// `eye`: the camera takes the picture.
+    /// `eye`: the event at which the camera takes the picture.
     Eye,
     /// `5,4` or `5,4,0,0`: time, and place along the axis of the diagram or in space, in the frame
     /// of the scene, or `5,4@ship` in another one.

@@ -1,4 +1,4 @@
-//! World lines as lines of a diagram.
+//! World lines, sampled as polylines of a diagram.
 
 use glam::DVec3;
 use ugphysics::{Event, WorldLine, WorldLineError};

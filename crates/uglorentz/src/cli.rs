@@ -34,9 +34,9 @@ pub struct Args {
     /// Largest error of edges: milliradians at the eye, or pixels, .15px [default: 0.1]
     ///
     /// Edges are subdivided until they deviate by at most ERR. Pixels are those of -sz and the view:
-    /// small pictures have fewer pieces, and edges shorter than a pixel are not cut. Subdivision stops at 4000000 pieces
-    /// (1000000 beyond the faces, if a body accelerates or turns),
-    /// or after 32 halvings of an edge, with a warning that states the remaining errors. -vb always
+    /// small pictures have fewer pieces, and edges shorter than a pixel are not cut. Subdivision
+    /// stops at 4000000 pieces (1000000 beyond the faces, if a body accelerates or turns), or after
+    /// 32 halvings of an edge, with a warning that states the remaining errors. -vb always
     /// states them, and the vertices where they occur. Faces of a scene with textures stay whole,
     /// since a ray is drawn for each sample of them, unless ERR in milliradians, -sc or -sl is given.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",

@@ -182,7 +182,7 @@ impl<'t> Reader<'t, '_> {
         }
     }
 
-    /// Parses a statement that is a row of its scope.
+    /// Parses one statement and adds it to its scope.
     fn row(&mut self, read: Read, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let start = self.position(input);
         self.names.clear();

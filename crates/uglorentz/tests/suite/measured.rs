@@ -129,7 +129,7 @@ fn clocks_show_their_own_times() {
     }
 }
 
-/// Born-rigid acceleration: each point is on a hyperbola about the same event, X = √((1/a + ξ)² +
+/// Born-rigid acceleration: each point follows a hyperbola about one event, X = √((1/a + ξ)² +
 /// T²) − 1/a, and spins are turns.
 #[test]
 fn bodies_on_world_lines_are_where_they_are() {

@@ -40,7 +40,7 @@ pub(super) static TRANSFORMS: Transforms = Transforms(&[
 pub(super) struct Transforms(&'static [Row]);
 
 struct Row {
-    /// The word without its dash, and what follows it.
+    /// The form of the option: its name without the dash, then its arguments.
     form: &'static str,
     n_numbers: usize,
     /// `None` for a vector without length, or a matrix that is not affine.

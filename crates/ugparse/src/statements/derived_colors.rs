@@ -1,5 +1,5 @@
-//! Colours that mix others, that change with own time, that are pictures, and that emit light:
-//! `c_mix`, `c_time`, `c_tex` and `c_emit`.
+//! Colours made of others: mixtures (`c_mix`), changes over own time (`c_time`), textures (`c_tex`)
+//! and emitted light (`c_emit`).
 
 use ugscene::{
     AlphaMode, Color, ColorId, ColorTable, ColorValue, Mix, NameId, Texture, TextureImage, Wrap,

@@ -38,7 +38,7 @@ pub(super) fn refuse<'t, T>(at: Input<'t>, reason: Reason) -> Outcome<'t, T> {
     Err(nom::Err::Failure(SyntaxError { at, reason }))
 }
 
-/// What is missing where a statement has no end, for messages.
+/// The token that messages name where a statement lacks its end.
 pub(crate) const END: &str = "`;`";
 
 /// The first characters of a name, for messages.

@@ -155,7 +155,7 @@ pub struct DopplerTable {
 
 impl DopplerTable {
     /// X, Y, Z interpolated at a ln D. Outside the table's range, the values at its nearer end.
-    /// `ln_xyz`: returns the logarithms at a point of the grid, always by the same function.
+    /// `ln_xyz`: computes the logarithms at a grid point; pass the same function in every call.
     ///
     /// ```
     /// use ugphysics::spectrum::{DopplerGrid, Spectrum};
@@ -178,7 +178,7 @@ impl DopplerTable {
     /// fall so slowly that a cubic through them is as near as through their logarithms, and takes
     /// no exponential functions. Where a point has no light they are interpolated linearly.
     ///
-    /// `xyz`: returns them at a point of the grid, always by the same function.
+    /// `xyz`: computes X, Y and Z at a grid point; pass the same function in every call.
     #[inline]
     pub fn mean(&self, place: &GridPlace, xyz: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
         if place.fraction == 0.0 {
